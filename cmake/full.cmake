@@ -1,0 +1,64 @@
+# The full program: threads, files, pictures, command line, tests.
+
+find_package(TBB REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(embree 3 REQUIRED)
+find_package(PkgConfig REQUIRED)
+find_path(STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb REQUIRED)
+find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
+find_library(TINYGLTF_LIBRARY tinygltf REQUIRED)
+
+target_link_libraries(pelage_core PUBLIC TBB::tbb)
+target_compile_definitions(pelage_core PUBLIC $<BUILD_INTERFACE:PELAGE_HAS_TBB>)
+
+if(PELAGE_WITH_CHOLMOD)
+  find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
+  find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
+  target_sources(pelage_core PRIVATE src/linalg/cholmod.cpp)
+  target_include_directories(pelage_core SYSTEM PRIVATE ${CHOLMOD_INCLUDE_DIR})
+  target_link_libraries(pelage_core PUBLIC ${CHOLMOD_LIBRARY})
+  target_compile_definitions(pelage_core PRIVATE PELAGE_HAS_CHOLMOD)
+endif()
+
+# --- the library: core + files + pictures + catalogue ---------------------------------------------------
+file(GLOB full_sources CONFIGURE_DEPENDS src/recipe/*.cpp src/io/*.cpp src/look/*.cpp src/catalog/*.cpp)
+
+# models/*.toml and recipes/*.toml are compiled in, so that the program needs no data directory.
+file(GLOB data_files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
+  ${PROJECT_SOURCE_DIR}/models/*.toml ${PROJECT_SOURCE_DIR}/recipes/*.toml)
+set(embedded_cpp ${PROJECT_BINARY_DIR}/embedded_data.cpp)
+list(TRANSFORM data_files PREPEND ${PROJECT_SOURCE_DIR}/ OUTPUT_VARIABLE data_paths)
+add_custom_command(OUTPUT ${embedded_cpp}
+  COMMAND ${CMAKE_COMMAND} "-DFILES=${data_files}" -DROOT=${PROJECT_SOURCE_DIR} -DOUTPUT=${embedded_cpp}
+    -P ${PROJECT_SOURCE_DIR}/cmake/embed.cmake
+  DEPENDS ${data_paths} ${PROJECT_SOURCE_DIR}/cmake/embed.cmake VERBATIM)
+
+add_library(pelage STATIC ${full_sources} ${embedded_cpp})
+add_library(pelage::pelage ALIAS pelage)
+target_include_directories(pelage PRIVATE src)
+target_include_directories(pelage SYSTEM PRIVATE ${STB_INCLUDE_DIR} ${TINYGLTF_INCLUDE_DIR})
+target_link_libraries(pelage
+  PUBLIC pelage_core
+  PRIVATE $<BUILD_INTERFACE:Eigen3::Eigen> $<BUILD_INTERFACE:pelage_flags>
+          $<BUILD_INTERFACE:tomlplusplus::tomlplusplus> $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>
+          embree ${TINYGLTF_LIBRARY})
+
+# --- the command line -----------------------------------------------------------------------------------
+file(GLOB cli_sources CONFIGURE_DEPENDS apps/cli/*.cpp)
+if(cli_sources)
+  add_executable(pelage_cli ${cli_sources})
+  set_target_properties(pelage_cli PROPERTIES OUTPUT_NAME pelage)
+  target_include_directories(pelage_cli PRIVATE src)
+  target_link_libraries(pelage_cli PRIVATE pelage CLI11::CLI11 nlohmann_json::nlohmann_json Eigen3::Eigen pelage_flags)
+  install(TARGETS pelage_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+if(PELAGE_TESTS)
+  enable_testing()
+  add_subdirectory(tests)
+endif()
+if(PELAGE_BENCHMARKS)
+  add_subdirectory(bench)
+endif()

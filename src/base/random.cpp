@@ -1,0 +1,45 @@
+#include "base/random.h"
+
+#include <cmath>
+
+namespace pelage {
+
+namespace {
+
+/// The four values of the uniform cubic B-spline that are non-zero at offset t in [0, 1).
+std::array<double, 4> cubic_bspline(double t) {
+  const double s = 1 - t;
+  return {s * s * s / 6, (3 * t * t * (t - 2) + 4) / 6, (3 * s * s * (s - 2) + 4) / 6, t * t * t / 6};
+}
+
+/// Uniform in [-1, 1) for a lattice point.
+double lattice_value(std::int64_t i, std::int64_t j, std::int64_t k, std::uint64_t seed) {
+  const std::uint64_t row = hash(hash(seed, static_cast<std::uint64_t>(i)), static_cast<std::uint64_t>(j));
+  return 2 * uniform(row, static_cast<std::uint64_t>(k)) - 1;
+}
+
+}  // namespace
+
+double smooth_noise(const std::array<double, 3>& place, double length, std::uint64_t seed) {
+  std::array<std::int64_t, 3> cell{};
+  std::array<std::array<double, 4>, 3> weight{};
+  for (std::size_t d = 0; d < 3; ++d) {
+    const double x = place[d] / length;
+    const double floor = std::floor(x);
+    cell[d] = static_cast<std::int64_t>(floor) - 1;
+    weight[d] = cubic_bspline(x - floor);
+  }
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j)
+      for (std::size_t k = 0; k < 4; ++k)
+        sum += weight[0][i] * weight[1][j] * weight[2][k] *
+               lattice_value(cell[0] + static_cast<std::int64_t>(i), cell[1] + static_cast<std::int64_t>(j),
+                             cell[2] + static_cast<std::int64_t>(k), seed);
+  // Variance of the sum, averaged over a cell: (1/3) * c^3 with c = integral of the squared B-spline = 151/315.
+  constexpr double mean_square = 151.0 / 315.0;
+  static const double scale = std::sqrt(3 / (mean_square * mean_square * mean_square));
+  return scale * sum;
+}
+
+}  // namespace pelage
