@@ -14,11 +14,11 @@ namespace pelage {
 
 /// Where the samples lie. All arrays have one entry per sample; those that the model does not use may be empty.
 struct Places {
-  std::span<const Point> positions;                           ///< world units; always needed
-  std::span<const Point> normals;                             ///< unit length
-  std::span<const double> k1, k2;                             ///< principal curvatures, 1 / world unit
-  std::map<std::string, std::span<const double>> attributes;  ///< vertex attributes of the mesh by name
-  double length_unit = 1;                                     ///< world length of one model length unit
+  std::span<const Point> positions = {};                           ///< world units; always needed
+  std::span<const Point> normals = {};                             ///< unit length
+  std::span<const double> k1 = {}, k2 = {};                        ///< principal curvatures, 1 / world unit
+  std::map<std::string, std::span<const double>> attributes = {};  ///< vertex attributes of the mesh by name
+  double length_unit = 1;                                          ///< world length of one model length unit
 };
 
 /// Species values: u[s][i] is the concentration of species s at sample i.

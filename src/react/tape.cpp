@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <memory>
+#include <optional>
 
 #include "react/tape_kernels.h"
 
@@ -21,7 +22,12 @@ class TapeBuilder {
  public:
   TapeBuilder(const Graph& graph, std::span<const NodeId> roots, std::span<const NodeId> inputs,
               std::span<const NodeId> scalars, Tape& tape)
-      : graph_(graph), tape_(tape), state_(graph.size(), unseen), place_(graph.size()) {
+      : graph_(graph),
+        tape_(tape),
+        state_(graph.size(), unseen),
+        place_(graph.size()),
+        fusion_(graph.size()),
+        absorbed_(graph.size(), 0) {
     tape.input_count_ = inputs.size();
     tape.output_count_ = roots.size();
     tape.scalar_count_ = scalars.size();
@@ -36,7 +42,9 @@ class TapeBuilder {
       auto& place = place_[index(roots[k])];
       if (state_[index(roots[k])] == scheduled && place.kind == Place::Kind::none) place = {Place::Kind::output, k};
     }
-    for (const NodeId id : order_) emit(id);
+    for (const NodeId id : order_) choose_fusion(id);
+    for (const NodeId id : order_)
+      if (!absorbed_[index(id)]) emit(id);
     for (std::size_t k = 0; k < roots.size(); ++k) {
       const Place from = place_[index(roots[k])];
       if (from.kind != Place::Kind::output || from.number != k) copies_.push_back({from, {Place::Kind::output, k}});
@@ -52,8 +60,10 @@ class TapeBuilder {
     bool is_scalar() const { return kind == Kind::scalar || kind == Kind::constant; }
   };
   struct Step {
-    Op op;
-    std::array<Place, 3> in;
+    Op op = Op::constant;
+    std::optional<std::size_t> fused_operand;  ///< the operand that is computed in the same loop
+    Op inner = Op::constant;
+    std::vector<Place> in;
     Place out;
   };
   struct Copy {
@@ -102,18 +112,43 @@ class TapeBuilder {
       for (int k = 0; k < arity(graph_[id].op); ++k) ++uses_[index(graph_[id].in[static_cast<std::size_t>(k)])];
   }
 
-  void emit(NodeId id) {
+  /// An operand that is used only here is computed in the same loop, if both operations are fusible.
+  void choose_fusion(NodeId id) {
     const Node& node = graph_[id];
-    const auto operands = static_cast<std::size_t>(arity(node.op));
-    Step step{node.op, {}, {}};
-    for (std::size_t k = 0; k < operands; ++k) step.in[k] = place_[index(node.in[k])];
+    if (!is_fusible(node.op)) return;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::size_t in = index(node.in[k]);
+      const bool is_free = state_[in] == scheduled && place_[in].kind == Place::Kind::none && uses_[in] == 1;
+      if (!is_free || !is_fusible(graph_[node.in[k]].op) || fusion_[in]) continue;
+      fusion_[index(id)] = k;
+      absorbed_[in] = 1;
+      return;
+    }
+  }
+
+  /// The nodes whose values an instruction reads.
+  std::vector<NodeId> operands(NodeId id) const {
+    const Node& node = graph_[id];
+    const auto k = fusion_[index(id)];
+    if (!k) return {node.in.begin(), node.in.begin() + arity(node.op)};
+    const Node& inner = graph_[node.in[*k]];
+    return {inner.in[0], inner.in[1], node.in[1 - *k]};
+  }
+
+  void emit(NodeId id) {
+    Step step;
+    step.op = graph_[id].op;
+    step.fused_operand = fusion_[index(id)];
+    if (step.fused_operand) step.inner = graph_[graph_[id].in[*step.fused_operand]].op;
+    const std::vector<NodeId> in = operands(id);
+    for (const NodeId operand : in) step.in.push_back(place_[index(operand)]);
     Place& place = place_[index(id)];
     if (place.kind == Place::Kind::none) place = {Place::Kind::reg, take_register()};
     step.out = place;
     steps_.push_back(step);
     // Operands are released only now: a result never shares memory with an operand.
-    for (std::size_t k = 0; k < operands; ++k)
-      if (--uses_[index(node.in[k])] == 0 && step.in[k].kind == Place::Kind::reg) free_.push_back(step.in[k].number);
+    for (std::size_t k = 0; k < in.size(); ++k)
+      if (--uses_[index(in[k])] == 0 && step.in[k].kind == Place::Kind::reg) free_.push_back(step.in[k].number);
   }
 
   std::size_t take_register() {
@@ -137,11 +172,12 @@ class TapeBuilder {
     for (const Step& step : steps_) {
       unsigned mask = 0;
       Tape::Instruction instruction;
-      for (unsigned k = 0; k < static_cast<unsigned>(arity(step.op)); ++k) {
+      for (unsigned k = 0; k < static_cast<unsigned>(step.in.size()); ++k) {
         if (step.in[k].is_scalar()) mask |= 1u << k;
         instruction.in[k] = address(step.in[k]);
       }
-      instruction.kernel = tape_kernel(step.op, mask);
+      instruction.kernel = step.fused_operand ? fused_kernel(step.inner, step.op, *step.fused_operand == 1, mask)
+                                              : tape_kernel(step.op, mask);
       instruction.out = address(step.out);
       tape_.instructions_.push_back(instruction);
     }
@@ -159,6 +195,8 @@ class TapeBuilder {
   std::vector<State> state_;
   std::vector<Place> place_;
   std::vector<int> uses_;
+  std::vector<std::optional<std::size_t>> fusion_;  ///< which operand is computed in the same loop
+  std::vector<char> absorbed_;                      ///< computed in the loop of its user
   std::vector<NodeId> order_;
   std::vector<Step> steps_;
   std::vector<Copy> copies_;
