@@ -62,16 +62,16 @@ double Sbdf2::error_estimate(const State& state, const std::vector<Vector>& next
   double worst = 0;
   for (std::size_t i = 0; i < next.size(); ++i) {
     const Vector &u0 = next[i], &u1 = state.now[i], &u2 = state.past[0][i], &u3 = state.past[1][i];
-    const auto sums = ordered_sum(static_cast<std::size_t>(u0.size()), Eigen::Array2d{0, 0},
-                                  [&](std::size_t begin, std::size_t end) {
-                                    Eigen::Array2d sum{0, 0};
-                                    for (auto k = static_cast<Eigen::Index>(begin); k < static_cast<Eigen::Index>(end); ++k) {
-                                      const double difference = c0 * u0[k] + c1 * u1[k] + c2 * u2[k] + c3 * u3[k];
-                                      sum[0] += difference * difference;
-                                      sum[1] += u0[k] * u0[k];
-                                    }
-                                    return sum;
-                                  });
+    const auto sums =
+        ordered_sum(static_cast<std::size_t>(u0.size()), Eigen::Array2d{0, 0}, [&](std::size_t begin, std::size_t end) {
+          Eigen::Array2d sum{0, 0};
+          for (auto k = static_cast<Eigen::Index>(begin); k < static_cast<Eigen::Index>(end); ++k) {
+            const double difference = c0 * u0[k] + c1 * u1[k] + c2 * u2[k] + c3 * u3[k];
+            sum[0] += difference * difference;
+            sum[1] += u0[k] * u0[k];
+          }
+          return sum;
+        });
     if (sums[1] > 0) worst = std::max(worst, scale * std::sqrt(sums[0] / sums[1]));
   }
   return worst;
