@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
+#include <cassert>
 #include <cmath>
 #include <tuple>
 
@@ -53,8 +53,8 @@ class Remesher {
   int vertex(int corner) const { return triangles_[corner / 3][corner % 3]; }
   Vec normal(const Triangle& t) const { return (points_[t[1]] - points_[t[0]]).cross(points_[t[2]] - points_[t[0]]); }
   int valence(int v) const { return first_[v + 1] - first_[v]; }
-  std::vector<Edge> edges() const;
   void gather_corners();
+  std::vector<Edge> edges() const;
   bool adjacent(int a, int b) const;
   int common_neighbours(int a, int b) const;
   bool may_collapse(const Edge& edge, const Vec& middle, double longest) const;
@@ -66,19 +66,6 @@ class Remesher {
   std::vector<int> first_, corners_;  ///< the corners at vertex v are corners_[first_[v] .. first_[v + 1])
 };
 
-std::vector<Edge> Remesher::edges() const {
-  std::vector<std::tuple<int, int, int>> halves;
-  for (int c = 0; c < static_cast<int>(3 * triangles_.size()); ++c)
-    halves.emplace_back(std::min(vertex(c), vertex(next(c))), std::max(vertex(c), vertex(next(c))), c);
-  std::sort(halves.begin(), halves.end());
-  std::vector<Edge> edges;
-  for (std::size_t i = 0; i + 1 < halves.size(); i += 2) {
-    const auto [a, b, corner] = halves[i];
-    edges.push_back({corner, std::get<2>(halves[i + 1]), (points_[a] - points_[b]).norm()});
-  }
-  return edges;
-}
-
 void Remesher::gather_corners() {
   first_.assign(points_.size() + 1, 0);
   const int count = static_cast<int>(3 * triangles_.size());
@@ -87,6 +74,19 @@ void Remesher::gather_corners() {
   corners_.resize(count);
   std::vector<int> fill(first_.begin(), first_.end() - 1);
   for (int c = 0; c < count; ++c) corners_[fill[vertex(c)]++] = c;
+}
+
+std::vector<Edge> Remesher::edges() const {
+  std::vector<Edge> edges;
+  for (int c = 0; c < static_cast<int>(3 * triangles_.size()); ++c) {
+    const int a = vertex(c), b = vertex(next(c));
+    if (a > b) continue;
+    const auto twin = std::find_if(corners_.begin() + first_[b], corners_.begin() + first_[b + 1],
+                                   [&](int other) { return vertex(next(other)) == a; });
+    assert(twin != corners_.begin() + first_[b + 1]);
+    edges.push_back({c, *twin, (points_[a] - points_[b]).norm()});
+  }
+  return edges;
 }
 
 bool Remesher::adjacent(int a, int b) const {
@@ -101,6 +101,7 @@ int Remesher::common_neighbours(int a, int b) const {
 
 /// Cuts all edges above the limit in the middle; a triangle with one, two or three cuts becomes two, three or four.
 void Remesher::split(double longest) {
+  gather_corners();
   std::vector<int> middle(3 * triangles_.size(), -1);
   for (const Edge& e : edges()) {
     if (e.length <= longest) continue;
@@ -248,7 +249,7 @@ TriangleMesh remesh(TriangleMesh mesh, std::size_t vertices, const std::function
     remesher.flip();
     remesher.relax(project);
     const double excess = static_cast<double>(remesher.size()) / static_cast<double>(vertices);
-    if (round > 3) edge *= std::clamp(std::sqrt(excess), 0.95, 1.05);
+    if (round > 3) edge *= std::clamp(std::sqrt(excess), 0.9, 1.1);
   }
   for (int round = 0; round < 10; ++round) {
     remesher.flip();
