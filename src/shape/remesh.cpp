@@ -8,15 +8,13 @@
 #include <tuple>
 
 #include "base/parallel.h"
+#include "shape/topology.h"
 
 namespace pelage {
 
 namespace {
 
 using Vec = Eigen::Vector3d;
-
-constexpr int next(int corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-constexpr int previous(int corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
 /// An edge with its two corners: corner c = 3 f + k of triangle f is the half-edge from vertex k to vertex k + 1.
 struct Edge {
@@ -79,10 +77,10 @@ void Remesher::gather_corners() {
 std::vector<Edge> Remesher::edges() const {
   std::vector<Edge> edges;
   for (int c = 0; c < static_cast<int>(3 * triangles_.size()); ++c) {
-    const int a = vertex(c), b = vertex(next(c));
+    const int a = vertex(c), b = vertex(next_halfedge(c));
     if (a > b) continue;
     const auto twin = std::find_if(corners_.begin() + first_[b], corners_.begin() + first_[b + 1],
-                                   [&](int other) { return vertex(next(other)) == a; });
+                                   [&](int other) { return vertex(next_halfedge(other)) == a; });
     assert(twin != corners_.begin() + first_[b + 1]);
     edges.push_back({c, *twin, (points_[a] - points_[b]).norm()});
   }
@@ -91,12 +89,12 @@ std::vector<Edge> Remesher::edges() const {
 
 bool Remesher::adjacent(int a, int b) const {
   return std::any_of(corners_.begin() + first_[a], corners_.begin() + first_[a + 1],
-                     [&](int c) { return vertex(next(c)) == b; });
+                     [&](int c) { return vertex(next_halfedge(c)) == b; });
 }
 
 int Remesher::common_neighbours(int a, int b) const {
   return static_cast<int>(std::count_if(corners_.begin() + first_[a], corners_.begin() + first_[a + 1],
-                                        [&](int c) { return adjacent(vertex(next(c)), b); }));
+                                        [&](int c) { return adjacent(vertex(next_halfedge(c)), b); }));
 }
 
 /// Cuts all edges above the limit in the middle; a triangle with one, two or three cuts becomes two, three or four.
@@ -106,7 +104,7 @@ void Remesher::split(double longest) {
   for (const Edge& e : edges()) {
     if (e.length <= longest) continue;
     middle[e.corner] = middle[e.twin] = static_cast<int>(points_.size());
-    points_.push_back((points_[vertex(e.corner)] + points_[vertex(next(e.corner))]) / 2);
+    points_.push_back((points_[vertex(e.corner)] + points_[vertex(next_halfedge(e.corner))]) / 2);
   }
   std::vector<Triangle> result;
   for (int f = 0; f < static_cast<int>(triangles_.size()); ++f) {
@@ -133,7 +131,7 @@ void Remesher::split(double longest) {
 /// Would moving a vertex to `target` turn over one of its triangles that do not contain `other`?
 bool Remesher::keeps_normals(int moved, int other, const Vec& target) const {
   for (int i = first_[moved]; i < first_[moved + 1]; ++i) {
-    const int p = vertex(next(corners_[i])), q = vertex(previous(corners_[i]));
+    const int p = vertex(next_halfedge(corners_[i])), q = vertex(previous_halfedge(corners_[i]));
     if (p == other || q == other) continue;
     const Vec before = (points_[p] - points_[moved]).cross(points_[q] - points_[moved]);
     const Vec after = (points_[p] - target).cross(points_[q] - target);
@@ -144,12 +142,12 @@ bool Remesher::keeps_normals(int moved, int other, const Vec& target) const {
 
 bool Remesher::may_collapse(const Edge& edge, const Vec& middle, double longest) const {
   const int a = vertex(edge.corner), b = vertex(edge.twin);
-  const int c = vertex(previous(edge.corner)), d = vertex(previous(edge.twin));
+  const int c = vertex(previous_halfedge(edge.corner)), d = vertex(previous_halfedge(edge.twin));
   if (valence(a) + valence(b) - 4 > 8 || valence(c) < 5 || valence(d) < 5) return false;
   if (common_neighbours(a, b) != 2) return false;  // more: the collapse would pinch the surface
   for (int v : {a, b})
     for (int i = first_[v]; i < first_[v + 1]; ++i)
-      if ((points_[vertex(next(corners_[i]))] - middle).norm() > longest) return false;
+      if ((points_[vertex(next_halfedge(corners_[i]))] - middle).norm() > longest) return false;
   return keeps_normals(a, b, middle) && keeps_normals(b, a, middle);
 }
 
@@ -164,11 +162,11 @@ void Remesher::collapse(double shortest, double longest) {
   std::vector<int> name(points_.size());
   for (std::size_t v = 0; v < name.size(); ++v) name[v] = static_cast<int>(v);
   for (const Edge& e : candidates) {
-    const int a = vertex(e.corner), b = vertex(next(e.corner));
+    const int a = vertex(e.corner), b = vertex(next_halfedge(e.corner));
     const Vec middle = (points_[a] + points_[b]) / 2;
     if (touched[a] || touched[b] || !may_collapse(e, middle, longest)) continue;
     for (int v : {a, b})
-      for (int i = first_[v]; i < first_[v + 1]; ++i) touched[vertex(next(corners_[i]))] = true;
+      for (int i = first_[v]; i < first_[v + 1]; ++i) touched[vertex(next_halfedge(corners_[i]))] = true;
     points_[a] = middle;
     name[b] = a;
   }
@@ -197,8 +195,8 @@ void Remesher::flip() {
   gather_corners();
   std::vector<char> touched(points_.size(), false);
   for (const Edge& e : edges()) {
-    const int a = vertex(e.corner), b = vertex(next(e.corner));
-    const int c = vertex(previous(e.corner)), d = vertex(previous(e.twin));
+    const int a = vertex(e.corner), b = vertex(next_halfedge(e.corner));
+    const int c = vertex(previous_halfedge(e.corner)), d = vertex(previous_halfedge(e.twin));
     if (touched[a] || touched[b] || touched[c] || touched[d]) continue;
     if (flip_gain(a, b, c, d) <= 0 || adjacent(c, d)) continue;
     const Triangle one = {a, d, c}, two = {d, b, c};
@@ -244,7 +242,10 @@ TriangleMesh remesh(TriangleMesh mesh, std::size_t vertices, const std::function
   for (int round = 0; round < rounds; ++round) {
     // A cut of an edge above 4/3 L or a collapse below 4/5 L leaves edges that are nearer to L than before.
     remesher.split(4.0 / 3.0 * edge);
-    remesher.collapse(4.0 / 5.0 * edge, 4.0 / 3.0 * edge);
+    for (std::size_t before = 0; before != remesher.size();) {
+      before = remesher.size();
+      remesher.collapse(4.0 / 5.0 * edge, 4.0 / 3.0 * edge);
+    }
     remesher.flip();
     remesher.flip();
     remesher.relax(project);
