@@ -130,7 +130,7 @@ KnotFrame knot_frame(double t) {
   f.centre = ring * radial + minor * std::sin(across) * Vec::UnitZ();
   f.normal = std::cos(across) * radial + std::sin(across) * Vec::UnitZ();
   f.tangent = 4 * pi * ring * along + 6 * pi * minor * (std::cos(across) * Vec::UnitZ() - std::sin(across) * radial);
-  f.binormal = f.tangent.normalized().cross(f.normal);
+  f.binormal = f.normal.cross(f.tangent.normalized());
   return f;
 }
 

@@ -46,6 +46,15 @@ TEST(Animal, StandsOnTheGroundAndLooksAlongX) {
   EXPECT_GT(upper[1] - lower[1], upper[2] - lower[2]);
 }
 
+TEST(Animal, EnclosesTheVolumeWhereTheFieldIsNegative) {
+  constexpr double spacing = 0.02;
+  int inside = 0;
+  for (double x = -1.3; x < 1.3; x += spacing)
+    for (double y = -0.2; y < 1.7; y += spacing)
+      for (double z = -0.6; z < 0.6; z += spacing) inside += animal_field({x, y, z}).value < 0;
+  EXPECT_NEAR(testing::mesh_facts(animal(20000)).volume, inside * spacing * spacing * spacing, 0.003);
+}
+
 TEST(Animal, IsWellMeshedOnTheSurface) {
   for (std::size_t n : {500, 4000, 20000}) {
     SCOPED_TRACE(n);
