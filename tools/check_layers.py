@@ -7,35 +7,33 @@ import pathlib
 import re
 import sys
 
-ORDER = "base < linalg shape react recipe < discretise io < time fair look < run < catalog < apps"
+ORDER = "base < linalg shape react recipe < discretise io < time fair look < run < verify catalog < apps"
 RANK = {layer: rank for rank, group in enumerate(ORDER.split("<")) for layer in group.split()}
 
 # The public headers belong to the layer that implements them.
-PUBLIC = {"error": "base", "progress": "base", "triangle_mesh": "shape", "image": "shape", "recipe": "recipe",
+PUBLIC = {"error": "base", "point": "base", "progress": "base", "triangle_mesh": "shape", "image": "shape", "recipe": "recipe",
           "run": "run", "pelage": "catalog"}
 INCLUDE = re.compile(r'\s*#\s*include\s*"([^"]+)"')
 
 
 def layer_of(path):
-    """The layer of a path below src/, include/ or the root, or None for a header next to its user."""
-    first, _, rest = path.partition("/")
-    if first == "pelage":
-        name = rest.removesuffix(".h").removesuffix(".cpp")
-        return PUBLIC.get(name) or sys.exit(f"tools/check_layers.py: give include/{path} a layer in PUBLIC")
-    return first if rest and first in RANK else None
+    """The layer of a path as an #include gives it, or None for a header beside its user."""
+    first, _, name = path.partition("/")
+    layer = PUBLIC.get(name.partition(".")[0]) if first == "pelage" else first
+    if name and layer not in RANK:
+        sys.exit(f"tools/check_layers.py: give {path} a place in ORDER or PUBLIC")
+    return layer if name else None
 
 
 def violations(root):
-    files = [(f, f.relative_to(root / base).as_posix()) for base, pattern in
-             (("src", "*/*"), ("include", "pelage/*"), (".", "apps/**/*")) for f in sorted((root / base).glob(pattern))
-             if f.suffix in (".h", ".cpp")]
-    for file, path in files:
-        user = layer_of(path)
-        for number, line in enumerate(file.read_text().splitlines(), 1):
-            match = INCLUDE.match(line)
-            used = match and layer_of(match[1])
-            if used and used != user and RANK[used] >= RANK[user]:
-                yield f"{file.relative_to(root)}:{number}: layer {user} must not include {match[1]} (layer {used})"
+    for base, pattern in ("src", "*/*"), ("include", "pelage/*"), (".", "apps/**/*"):
+        for file in sorted(f for f in (root / base).glob(pattern) if f.suffix in (".h", ".cpp")):
+            user = layer_of(file.relative_to(root / base).as_posix())
+            for number, line in enumerate(file.read_text().splitlines(), 1):
+                match = INCLUDE.match(line)
+                used = match and layer_of(match[1])
+                if used and used != user and RANK[used] >= RANK[user]:
+                    yield f"{file.relative_to(root)}:{number}: {user} must not include {match[1]} (layer {used})"
 
 
 if __name__ == "__main__":
