@@ -11,8 +11,8 @@ ORDER = "base < linalg shape react recipe < discretise io < time fair look < run
 RANK = {layer: rank for rank, group in enumerate(ORDER.split("<")) for layer in group.split()}
 
 # The public headers belong to the layer that implements them.
-PUBLIC = {"error": "base", "point": "base", "progress": "base", "triangle_mesh": "shape", "image": "shape", "recipe": "recipe",
-          "run": "run", "pelage": "catalog"}
+PUBLIC = {"error": "base", "point": "base", "progress": "base", "triangle_mesh": "shape", "image": "shape",
+          "recipe": "recipe", "run": "run", "pelage": "catalog"}
 INCLUDE = re.compile(r'\s*#\s*include\s*"([^"]+)"')
 
 
