@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "pelage/triangle_mesh.h"
+#include "pelage/point.h"
 #include "react/model.h"
 #include "react/tape.h"
 
