@@ -49,6 +49,9 @@ T ordered_sum(std::size_t n, T zero, Partial&& partial, std::size_t chunk = defa
   return sum;
 }
 
+/// Number of threads that loops may use. Results must not depend on it.
+int concurrency();
+
 /// Limits the number of threads for as long as it lives (0: all cores).
 class ThreadLimit {
  public:

@@ -1,0 +1,58 @@
+#include "base/suggest.h"
+
+#include <algorithm>
+
+namespace pelage {
+
+namespace {
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+bool same(char a, char b) { return lower(a) == lower(b); }
+
+bool starts_with(std::string_view word, std::string_view start) {
+  return word.size() >= start.size() && std::equal(start.begin(), start.end(), word.begin(), same);
+}
+
+}  // namespace
+
+int edit_distance(std::string_view a, std::string_view b) {
+  // Three rows of the dynamic programme: distances of the prefixes of `a` of length i-2, i-1 and i.
+  std::vector<int> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = static_cast<int>(j);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = static_cast<int>(i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const int replace = last[j - 1] + (same(a[i - 1], b[j - 1]) ? 0 : 1);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, replace});
+      if (i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1]))
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    std::swap(before, last);
+    std::swap(last, row);
+  }
+  return last[b.size()];
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
+  // One slip in three characters: "tring" finds "turing", "xyz" finds nothing.
+  int best = std::max(1, static_cast<int>(word.size()) / 3) + 1;
+  const std::string* nearest = nullptr;
+  for (const std::string& name : known) {
+    // An abbreviation of two characters or more counts as one slip.
+    const int distance = word.size() >= 2 && starts_with(name, word) ? 1 : edit_distance(word, name);
+    if (distance < best && distance < static_cast<int>(name.size())) {
+      best = distance;
+      nearest = &name;
+    }
+  }
+  return nearest ? "did you mean \"" + *nearest + "\"?" : "";
+}
+
+std::string join_names(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace pelage

@@ -1,0 +1,19 @@
+#pragma once
+// PLY (binary, little-endian).
+
+#include <string>
+
+#include "pelage/triangle_mesh.h"
+
+namespace pelage {
+
+/// The bytes of a PLY file. Per vertex, where the mesh has them:
+///   x y z               float if every coordinate is exactly a float, else double: they read back unchanged
+///   nx ny nz            float, "normal"
+///   red green blue      uchar, sRGB, "color" (and alpha, linear, from a fourth component)
+///   s t                 float, "uv": the names that Blender and three.js read
+///   NAME or NAME_0 ...  float, any other attribute; characters other than letters, digits and _ become _
+/// Vertices are split where attributes at corners differ. Faces: property list uchar int vertex_indices.
+std::string encode_ply(const TriangleMesh& mesh);
+
+}  // namespace pelage

@@ -1,0 +1,104 @@
+#include "io/write_mesh.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <span>
+
+#include "base/suggest.h"
+#include "io/atomic_file.h"
+#include "io/glb_writer.h"
+#include "io/obj_writer.h"
+#include "io/off_writer.h"
+#include "io/ply_writer.h"
+#include "io/stl_writer.h"
+#include "io/vtp_writer.h"
+#include "pelage/error.h"
+
+namespace pelage {
+
+namespace {
+
+struct Writer {
+  const char* extension;
+  std::string (*encode)(const TriangleMesh&);
+};
+
+constexpr Writer writers[] = {
+    {".glb", encode_glb},  //
+    {".obj", encode_obj},  //
+    {".off", encode_off},  //
+    {".ply", encode_ply},  //
+    {".stl", encode_stl},  //
+    {".vtp", encode_vtp},  //
+};
+
+std::string lower_extension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+const Writer& find_writer(const std::string& path) {
+  const std::string extension = lower_extension(path);
+  for (const Writer& writer : writers)
+    if (extension == writer.extension) return writer;
+  const std::string what = extension.empty() ? "a mesh file needs an extension that names its format"
+                                             : "cannot write meshes as \"" + extension + "\"";
+  const std::string hint = did_you_mean(extension, mesh_extensions());
+  throw Error(Fault::usage, what + "; known: " + join_names(mesh_extensions()) + (hint.empty() ? "" : "; " + hint), {path});
+}
+
+bool fits_float(double x) { return std::abs(x) <= std::numeric_limits<float>::max(); }  // false for NaN
+
+void require_finite(std::span<const double> values, int components, Domain domain, const std::string& name) {
+  const auto bad = std::find_if_not(values.begin(), values.end(), fits_float);
+  if (bad == values.end()) return;
+  const std::ptrdiff_t tuple = (bad - values.begin()) / components;
+  const std::string place = domain == Domain::vertex
+                                ? "vertex " + std::to_string(tuple)
+                                : "corner " + std::to_string(tuple % 3) + " of face " + std::to_string(tuple / 3);
+  throw Error(Fault::numerics, name + " is " + std::to_string(*bad) + " at " + place + "; nothing was written");
+}
+
+}  // namespace
+
+void require_finite(const TriangleMesh& mesh) {
+  static_assert(sizeof(Point) == 3 * sizeof(double));
+  const double* coordinates = mesh.points.empty() ? nullptr : mesh.points.front().data();
+  require_finite({coordinates, 3 * mesh.points.size()}, 3, Domain::vertex, "the position");
+  for (const Attribute& attribute : mesh.attributes) {
+    [[maybe_unused]] const std::size_t tuples =
+        attribute.domain == Domain::vertex ? mesh.points.size() : 3 * mesh.triangles.size();
+    assert(attribute.values.size() == tuples * attribute.components);
+    require_finite(attribute.values, attribute.components, attribute.domain, "\"" + attribute.name + "\"");
+  }
+}
+
+std::vector<std::string> mesh_extensions() {
+  std::vector<std::string> names;
+  for (const Writer& writer : writers) names.push_back(writer.extension);
+  return names;
+}
+
+void check_mesh_path(const std::string& path) {
+  find_writer(path);
+  check_folder(path);
+}
+
+void write_mesh(const TriangleMesh& mesh, const std::string& path) {
+  const Writer& writer = find_writer(path);
+  std::string bytes;
+  try {
+    require_finite(mesh);
+    bytes = writer.encode(mesh);
+  } catch (const Error& error) {
+    throw Error(error.fault(), error.what(), {path});
+  }
+  write_file(path, bytes);
+}
+
+}  // namespace pelage

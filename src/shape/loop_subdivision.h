@@ -1,0 +1,34 @@
+#pragma once
+// Loop subdivision (Loop 1987): refinement of connectivity and control values, and the limit masks.
+// Boundary vertices and edges follow the rules of the cubic B-spline; there are no corners.
+
+#include "shape/stencils.h"
+#include "shape/topology.h"
+
+namespace pelage {
+
+/// One level of refinement: vertex v keeps its number, the new vertex on edge e gets number vertex_count + e.
+/// Triangle f = (a, b, c) becomes 4f: (a, ab, ca), 4f+1: (ab, b, bc), 4f+2: (ca, bc, c), 4f+3: (bc, ca, ab).
+struct Refinement {
+  std::vector<Triangle> triangles;
+  Stencils stencils;  ///< rows: refined vertices; columns: vertices of the coarse mesh
+};
+
+/// Loop's rules. The limit surface of the refined mesh is that of the coarse mesh.
+Refinement loop_refine(const Topology& topology);
+
+/// The same connectivity with midpoints on the edges: keeps the flat triangles.
+Refinement midpoint_refine(const Topology& topology);
+
+/// Weight beta of each neighbour in Loop's rule for an interior vertex of valence n:
+/// v' = (1 - n beta) v + beta sum(neighbours).
+double loop_beta(Index valence);
+
+/// Limits at the control vertices.
+struct LimitMasks {
+  Stencils position;
+  Stencils tangent1, tangent2;  ///< two independent tangents, tangent1 x tangent2 points outward; lengths have no meaning
+};
+LimitMasks loop_limit_masks(const Topology& topology);
+
+}  // namespace pelage

@@ -1,0 +1,137 @@
+#include "shape/topology.h"
+
+#include <algorithm>
+#include <string>
+
+#include "pelage/error.h"
+
+namespace pelage {
+
+namespace {
+
+std::string name(Index face) { return "face " + std::to_string(face); }
+
+/// Halfedges grouped by the smaller of their two vertices: `start` has vertex_count + 1 entries.
+struct HalfedgesByVertex {
+  std::vector<Index> start, halfedge;
+};
+
+HalfedgesByVertex group_by_smaller_vertex(const Topology& t) {
+  const auto halfedges = static_cast<Index>(3 * t.triangles.size());
+  HalfedgesByVertex groups;
+  groups.start.assign(static_cast<std::size_t>(t.vertex_count) + 1, 0);
+  auto smaller = [&](Index h) { return static_cast<std::size_t>(std::min(t.origin(h), t.target(h))); };
+  for (Index h = 0; h < halfedges; ++h) ++groups.start[smaller(h) + 1];
+  for (std::size_t v = 1; v < groups.start.size(); ++v) groups.start[v] += groups.start[v - 1];
+  groups.halfedge.resize(static_cast<std::size_t>(halfedges));
+  std::vector<Index> cursor(groups.start.begin(), groups.start.end() - 1);
+  for (Index h = 0; h < halfedges; ++h) groups.halfedge[static_cast<std::size_t>(cursor[smaller(h)]++)] = h;
+  return groups;
+}
+
+/// Pairs the halfedges of one group, which share their smaller vertex.
+void pair_group(Topology& t, const Index* begin, const Index* end) {
+  for (const Index* a = begin; a != end; ++a) {
+    for (const Index* b = a + 1; b != end; ++b) {
+      const bool same = t.origin(*a) == t.origin(*b) && t.target(*a) == t.target(*b);
+      const bool opposite = t.origin(*a) == t.target(*b) && t.target(*a) == t.origin(*b);
+      if (!same && !opposite) continue;
+      Index& twin_a = t.twin[static_cast<std::size_t>(*a)];
+      Index& twin_b = t.twin[static_cast<std::size_t>(*b)];
+      if (same || twin_a >= 0 || twin_b >= 0)
+        throw Error(Fault::input, name(*a / 3) + " and " + name(*b / 3) +
+                                      " meet at a non-manifold or inconsistently oriented edge; repair the mesh first");
+      twin_a = *b;
+      twin_b = *a;
+    }
+  }
+}
+
+/// Sorts long groups (high valence) so that only equal far vertices are compared.
+void pair_halfedges(Topology& t) {
+  HalfedgesByVertex groups = group_by_smaller_vertex(t);
+  auto larger = [&](Index h) { return std::max(t.origin(h), t.target(h)); };
+  for (std::size_t v = 0; v + 1 < groups.start.size(); ++v) {
+    Index* begin = groups.halfedge.data() + groups.start[v];
+    Index* end = groups.halfedge.data() + groups.start[v + 1];
+    std::stable_sort(begin, end, [&](Index a, Index b) { return larger(a) < larger(b); });
+    for (Index* a = begin; a != end;) {
+      Index* b = std::find_if(a, end, [&](Index h) { return larger(h) != larger(*a); });
+      pair_group(t, a, b);
+      a = b;
+    }
+  }
+}
+
+void number_edges(Topology& t) {
+  t.edge.assign(t.twin.size(), -1);
+  for (std::size_t h = 0; h < t.twin.size(); ++h) {
+    const Index twin = t.twin[h];
+    const bool first = twin < 0 || static_cast<std::size_t>(twin) > h;
+    t.edge[h] = first ? t.edge_count++ : t.edge[static_cast<std::size_t>(twin)];
+  }
+}
+
+/// Prefers the boundary halfedge, so that a walk counter-clockwise meets the whole fan.
+void choose_outgoing(Topology& t) {
+  t.outgoing.assign(static_cast<std::size_t>(t.vertex_count), -1);
+  for (std::size_t h = 0; h < t.twin.size(); ++h) {
+    Index& out = t.outgoing[static_cast<std::size_t>(t.origin(static_cast<Index>(h)))];
+    if (out < 0 || t.twin[h] < 0) out = static_cast<Index>(h);
+  }
+}
+
+/// A vertex is manifold when the walk around it meets all its triangles.
+void check_vertices(const Topology& t) {
+  std::vector<Index> corners(static_cast<std::size_t>(t.vertex_count), 0);
+  for (const Triangle& triangle : t.triangles)
+    for (Index v : triangle) ++corners[static_cast<std::size_t>(v)];
+  for (Index v = 0; v < t.vertex_count; ++v) {
+    const Index start = t.outgoing[static_cast<std::size_t>(v)];
+    Index met = 0;
+    for (Index h = start; h >= 0; h = t.rotate(h)) {
+      ++met;
+      if (t.rotate(h) == start) break;
+    }
+    if (met != corners[static_cast<std::size_t>(v)])
+      throw Error(Fault::input,
+                  "vertex " + std::to_string(v) + " joins several fans of faces; repair the mesh first");
+  }
+}
+
+}  // namespace
+
+void Topology::one_ring(Index vertex, std::vector<Index>& ring) const {
+  ring.clear();
+  const Index start = outgoing[static_cast<std::size_t>(vertex)];
+  for (Index h = start; h >= 0;) {
+    ring.push_back(target(h));
+    const Index following = rotate(h);
+    if (following < 0) ring.push_back(origin(previous_halfedge(h)));
+    if (following == start) break;
+    h = following;
+  }
+}
+
+Topology make_topology(std::size_t vertex_count, std::vector<Triangle> triangles) {
+  Topology t;
+  t.vertex_count = static_cast<Index>(vertex_count);
+  t.triangles = std::move(triangles);
+  t.twin.assign(3 * t.triangles.size(), -1);
+  pair_halfedges(t);
+  number_edges(t);
+  choose_outgoing(t);
+  check_vertices(t);
+  return t;
+}
+
+Index max_valence(const Topology& topology) {
+  std::vector<Index> degree(static_cast<std::size_t>(topology.vertex_count), 0);
+  for (std::size_t h = 0; h < topology.twin.size(); ++h) {
+    ++degree[static_cast<std::size_t>(topology.origin(static_cast<Index>(h)))];
+    if (topology.twin[h] < 0) ++degree[static_cast<std::size_t>(topology.target(static_cast<Index>(h)))];
+  }
+  return degree.empty() ? 0 : *std::max_element(degree.begin(), degree.end());
+}
+
+}  // namespace pelage
