@@ -100,7 +100,7 @@ class GltfReader {
       for (int root : roots()) visit(root);
     }
     if (skipped_.count > 0) {
-      skipped_.text = std::to_string(skipped_.count) + " primitives are points or lines; left out";
+      skipped_.text = counted(skipped_.count, "primitive") + " made of points or lines; left out";
       shape_.findings.push_back(skipped_);
     }
     complete_attributes(shape_.mesh.points.size());

@@ -320,7 +320,7 @@ class PlyReader {
   }
 
   void report_longer_lines() {
-    longer_.text = std::to_string(longer_.count) + " lines hold more values than the header says (first: line " +
+    longer_.text = counted(longer_.count, "line") + " with more values than the header says (first: line " +
                    std::to_string(longer_.element) + "); the values behind are skipped";
     shape_.findings.push_back(longer_);
   }

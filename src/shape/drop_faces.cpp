@@ -16,8 +16,7 @@ void drop(NumberedMesh& work, const std::vector<char>& keep, const char* kind, c
   const auto count = static_cast<std::size_t>(std::count(keep.begin(), keep.end(), 0));
   const std::size_t face = work.face_number[first - keep.begin()];
   findings.push_back({kind,
-                      std::to_string(count) + (count == 1 ? " face " : " faces ") + what + " (first: face " +
-                          std::to_string(face) + "); removed",
+                      counted(count, "face") + " " + what + " (first: face " + std::to_string(face) + "); removed",
                       count, face, true});
   keep_faces(work, keep);
 }

@@ -8,6 +8,12 @@
 
 namespace pelage {
 
+/// "1 face", "30 faces".
+inline std::string counted(std::size_t count, const std::string& noun) {
+  if (count == 1) return "1 " + noun;
+  return std::to_string(count) + " " + (noun == "vertex" ? "vertices" : noun + "s");
+}
+
 /// Something unusual in a shape. Vertices and faces are counted from 0, in the order of the file.
 struct Finding {
   std::string kind;         ///< short fixed name for programs, for example "duplicate-faces"

@@ -38,12 +38,12 @@ class Orienter {
 
   void report(std::vector<Finding>& findings) {
     if (flipped.count > 0) {
-      flipped.text = std::to_string(flipped.count) + " faces are wound against their neighbours (first: face " +
+      flipped.text = counted(flipped.count, "face") + " wound against the neighbours (first: face " +
                      std::to_string(flipped.element) + "); turned over";
       findings.push_back(flipped);
     }
     if (inward.count > 0) {
-      inward.text = std::to_string(inward.count) + " closed components are inside out (first: that of face " +
+      inward.text = counted(inward.count, "closed component") + " inside out (first: that of face " +
                     std::to_string(inward.element) + "); turned outward";
       findings.push_back(inward);
     }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "shape/drop_faces.h"
+#include "shape/near_copies.h"
 #include "shape/numbered_mesh.h"
 #include "shape/orient.h"
 #include "shape/stitch.h"
@@ -53,10 +54,10 @@ void check_range(const TriangleMesh& mesh, const std::vector<std::int32_t>& face
 void drop_unused(NumberedMesh& work, std::vector<Finding>& findings) {
   const Dropped dropped = drop_unused_vertices(work);
   if (dropped.count == 0) return;
-  findings.push_back({"unused-vertices",
-                      std::to_string(dropped.count) + " vertices belong to no face (first: vertex " +
-                          std::to_string(dropped.first) + "); removed",
-                      dropped.count, dropped.first, true});
+  findings.push_back(
+      {"unused-vertices",
+       counted(dropped.count, "vertex") + " in no face (first: vertex " + std::to_string(dropped.first) + "); removed",
+       dropped.count, dropped.first, true});
 }
 
 void clear_non_finite_attributes(TriangleMesh& mesh, std::vector<Finding>& findings) {
@@ -68,7 +69,7 @@ void clear_non_finite_attributes(TriangleMesh& mesh, std::vector<Finding>& findi
       a.values[i] = 0;
     }
     if (finding.count == 0) continue;
-    finding.text = std::to_string(finding.count) + " values of attribute \"" + a.name + "\" are not finite; set to 0";
+    finding.text = counted(finding.count, "value") + " of attribute \"" + a.name + "\" not finite; set to 0";
     findings.push_back(finding);
   }
 }
@@ -97,7 +98,7 @@ void report_zero_area(const NumberedMesh& work, std::vector<Finding>& findings) 
     if (flatness(p[a], p[b], p[c]) < flat && finding.count++ == 0) finding.element = work.face_number[f];
   }
   if (finding.count == 0) return;
-  finding.text = std::to_string(finding.count) + " faces have no area (first: face " + std::to_string(finding.element) +
+  finding.text = counted(finding.count, "face") + " without area (first: face " + std::to_string(finding.element) +
                  "); kept, the pattern may be poor there";
   findings.push_back(finding);
 }
@@ -140,6 +141,7 @@ TriangleMesh repair(TriangleMesh mesh, std::vector<Finding>& findings, const std
   orient(work, opposite, findings);
   drop_unused_vertices(work);  // those of removed faces, which are reported already
   report_zero_area(work, findings);
+  report_near_copies(work, findings);
   return std::move(work.mesh);
 }
 

@@ -72,7 +72,7 @@ class Pairing {
     if (touching_count_ == 0) return;
     const std::size_t face = work_.face_number[first_touching_];
     findings.push_back({"touching-edges",
-                        std::to_string(touching_count_) + " edges where solids touch each other (first: at face " +
+                        counted(touching_count_, "edge") + " where solids touch each other (first: at face " +
                             std::to_string(face) + "); separated",
                         touching_count_, face, true});
   }
@@ -289,13 +289,13 @@ void renumber_by_fans(NumberedMesh& work, const std::vector<HalfEdge>& opposite,
   gather_vertices(work, renumbering.source);
   for (std::size_t c = 0; c < renumbering.corner.size(); ++c) work.mesh.triangles[c / 3][c % 3] = renumbering.corner[c];
   if (seams.count > 0) {
-    seams.text = std::to_string(seams.count) + " vertices are copies of others along open edges (first: vertex " +
+    seams.text = counted(seams.count, "vertex") + " in the place of others along open edges (first: vertex " +
                  std::to_string(seams.element) + "); merged";
     findings.push_back(seams);
   }
   if (touching.count > 0) {
-    touching.text = "sheets touch at a vertex " + std::to_string(touching.count) + " times (first: vertex " +
-                    std::to_string(touching.element) + "); one copy made for each sheet";
+    touching.text = "sheets that touch only in a vertex (first: vertex " + std::to_string(touching.element) +
+                    "); separated with the help of " + counted(touching.count, "vertex") + " more";
     findings.push_back(touching);
   }
 }

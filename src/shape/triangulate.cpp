@@ -61,8 +61,8 @@ std::vector<Flat> flatten(const std::vector<Point>& ring) {
 /// Clips ears off one flat polygon; emits triples of positions in the ring.
 class EarClipper {
  public:
-  explicit EarClipper(const std::vector<Flat>& points)
-      : points_(points), next_(points.size()), previous_(points.size()), score_(points.size()) {
+  EarClipper(const std::vector<Flat>& points, const std::vector<char>& keep)
+      : points_(points), keep_(keep), next_(points.size()), previous_(points.size()), score_(points.size()) {
     const std::size_t n = points.size();
     for (std::size_t i = 0; i < n; ++i) {
       next_[i] = (i + 1) % n;
@@ -97,15 +97,15 @@ class EarClipper {
     return cross(a, b, p) >= 0 && cross(b, c, p) >= 0 && cross(c, a, p) >= 0;
   }
 
-  /// The quality of an ear; negative, the worse the more, where the corner is none. Flat corners are the last
-  /// resort among the ears: they give triangles without area.
+  /// The quality of an ear; negative, the worse the more, where the corner is none. Corners to keep are the last
+  /// resort among the ears, as are flat corners, which give triangles without area.
   double ear_score(std::size_t i) const {
     const double q = corner_quality(i);
     if (q < 0) return q - 1;
     const Flat &a = points_[previous_[i]], &b = points_[i], &c = points_[next_[i]];
     for (std::size_t r : reflex_)
       if (r != i && r != previous_[i] && r != next_[i] && blocks(r, a, b, c)) return q - 1;
-    return q;
+    return keep_[i] ? 0 : q;
   }
 
   std::size_t best_ear(std::size_t start, std::size_t left) const {
@@ -127,32 +127,57 @@ class EarClipper {
   }
 
   const std::vector<Flat>& points_;
+  const std::vector<char>& keep_;  // corners that should not become ears
   std::vector<std::size_t> next_, previous_, reflex_;
   std::vector<double> score_;
 };
 
-/// Positions in the ring of the two triangles of a quad. The diagonal 0-2 wins ties.
-std::array<std::array<std::size_t, 3>, 2> cut_quad(const std::vector<Flat>& q) {
+/// Positions in the ring of the two triangles of a quad. The diagonal 0-2 wins ties; corners to keep decide first.
+std::array<std::array<std::size_t, 3>, 2> cut_quad(const std::vector<Flat>& q, const std::vector<char>& keep) {
   const double along_02 = std::min(quality(q[0], q[1], q[2]), quality(q[0], q[2], q[3]));
   const double along_13 = std::min(quality(q[1], q[2], q[3]), quality(q[1], q[3], q[0]));
   constexpr double tie = 1e-12;  // rounding must not choose between the diagonals of a square
-  if (along_13 > along_02 + tie) return {{{1, 2, 3}, {1, 3, 0}}};
+  const bool keep_02 = keep[0] || keep[2], keep_13 = keep[1] || keep[3];
+  if (keep_13 != keep_02 ? keep_13 : along_13 > along_02 + tie) return {{{1, 2, 3}, {1, 3, 0}}};
   return {{{0, 1, 2}, {0, 2, 3}}};
+}
+
+/// Marks the vertices inside the surface where only two faces meet. An ear of both faces there would make the same
+/// triangle twice, back to back.
+std::vector<char> vertices_of_two_faces(const PolygonMesh& polygons) {
+  struct Fan {
+    std::int32_t before = -1, after = -1, faces = 0;
+  };
+  std::vector<Fan> fans(polygons.points.size());
+  std::vector<char> marked(polygons.points.size(), 0);
+  for (std::size_t f = 0; f < polygons.face_count(); ++f) {
+    const std::size_t begin = polygons.face_begin(f), end = polygons.face_ends[f];
+    for (std::size_t c = begin; c < end; ++c) {
+      const std::int32_t before = polygons.corners[c == begin ? end - 1 : c - 1];
+      const std::int32_t after = polygons.corners[c + 1 == end ? begin : c + 1];
+      Fan& fan = fans[polygons.corners[c]];
+      marked[polygons.corners[c]] = ++fan.faces == 2 && fan.before == after && fan.after == before;
+      if (fan.faces == 1) fan = {before, after, 1};
+    }
+  }
+  return marked;
 }
 
 /// Collects the triangles of all faces as corner numbers of the polygon mesh.
 class FaceCutter {
  public:
-  explicit FaceCutter(const PolygonMesh& polygons) : polygons_(polygons) {}
+  explicit FaceCutter(const PolygonMesh& polygons) : polygons_(polygons), keep_(vertices_of_two_faces(polygons)) {}
 
   void cut(std::size_t face) {
     const std::size_t begin = polygons_.face_begin(face), n = polygons_.face_ends[face] - begin;
     auto emit = [&](std::size_t a, std::size_t b, std::size_t c) { add(face, begin + a, begin + b, begin + c); };
     if (n == 3) return emit(0, 1, 2);
     const std::vector<Flat> flat = flatten(ring(begin, n));
+    std::vector<char> keep(n);
+    for (std::size_t i = 0; i < n; ++i) keep[i] = keep_[polygons_.corners[begin + i]];
     if (n == 4) {
-      for (const auto& t : cut_quad(flat)) emit(t[0], t[1], t[2]);
-    } else if (!EarClipper(flat).run(emit) && crossing_count_++ == 0) {
+      for (const auto& t : cut_quad(flat, keep)) emit(t[0], t[1], t[2]);
+    } else if (!EarClipper(flat, keep).run(emit) && crossing_count_++ == 0) {
       first_crossing_ = face;
     }
   }
@@ -163,7 +188,7 @@ class FaceCutter {
   void report(std::vector<Finding>& findings) const {
     if (crossing_count_ == 0) return;
     findings.push_back({"crossing-faces",
-                        std::to_string(crossing_count_) + " faces cross themselves (first: face " +
+                        counted(crossing_count_, "face") + " that cross themselves (first: face " +
                             std::to_string(first_crossing_) + "); some of their triangles are folded over",
                         crossing_count_, first_crossing_, false});
   }
@@ -184,6 +209,7 @@ class FaceCutter {
   }
 
   const PolygonMesh& polygons_;
+  std::vector<char> keep_;  // per vertex: should not be cut off as an ear
   std::size_t crossing_count_ = 0, first_crossing_ = 0;
 };
 
@@ -237,19 +263,19 @@ std::vector<double> pick_corners(const Attribute& attribute, const std::vector<s
 
 Triangulation triangulate(PolygonMesh polygons, std::vector<Finding>& findings) {
   const std::size_t count = count_triangles(polygons);
+  for (std::size_t f = 0; f < polygons.face_count(); ++f) check_face(polygons, f);
   FaceCutter cutter(polygons);
   cutter.triangles.reserve(count);
   cutter.source_face.reserve(count);
   Finding small{"small-faces", "", 0, 0, true};
   for (std::size_t f = 0; f < polygons.face_count(); ++f) {
-    check_face(polygons, f);
     if (polygons.face_ends[f] - polygons.face_begin(f) >= 3)
       cutter.cut(f);
     else if (small.count++ == 0)
       small.element = f;
   }
   if (small.count > 0) {
-    small.text = std::to_string(small.count) + " faces have fewer than three corners (first: face " +
+    small.text = counted(small.count, "face") + " with fewer than three corners (first: face " +
                  std::to_string(small.element) + "); left out";
     findings.push_back(small);
   }
