@@ -82,7 +82,7 @@ class ObjReader {
     if (i == 0) text_.fail(std::string(what) + " is 0, but OBJ counts from 1");
     const std::int64_t from_zero = i > 0 ? i - 1 : static_cast<std::int64_t>(count) + i;
     if (from_zero < 0 || from_zero > std::numeric_limits<std::int32_t>::max())
-      text_.fail(std::string(what) + " " + quoted(word) + " refers to nothing");
+      text_.fail(std::string(what) + " " + in_quotes(word) + " refers to nothing");
     return static_cast<std::int32_t>(from_zero);
   }
 

@@ -48,7 +48,7 @@ class OffReader {
         if (next.word() == "BINARY") text_.fail("binary OFF is not supported; save it as text, or as PLY");
       }
     } else if (word[0] < '0' || word[0] > '9') {  // the header word may be missing
-      text_.fail("an OFF file begins with \"OFF\", this one with " + quoted(word));
+      text_.fail("an OFF file begins with \"OFF\", this one with " + in_quotes(word));
     }
     // Some programs leave no blank between the word and the counts.
     if (off != std::string_view::npos && word.size() > off + 3)
@@ -74,7 +74,7 @@ class OffReader {
       prefix.remove_prefix(1);
     }
     if (!prefix.empty())
-      text_.fail("OFF files of the kind " + quoted(prefix) + " are not supported; three coordinates a vertex are");
+      text_.fail("OFF files of the kind " + in_quotes(prefix) + " are not supported; three coordinates a vertex are");
   }
 
   void check_counts() {

@@ -45,7 +45,7 @@ class HeaderReader {
       else if (keyword == "property")
         read_property();
       else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info")
-        text_.fail("unknown word " + quoted(keyword) + " in the header (is the end_header line missing?)");
+        text_.fail("unknown word " + in_quotes(keyword) + " in the header (is the end_header line missing?)");
       text_.skip_line();
     }
     text_.skip_line();
@@ -66,9 +66,9 @@ class HeaderReader {
     else if (name == "binary_big_endian")
       header_.format = PlyFormat::big_endian;
     else
-      text_.fail("unknown PLY format " + quoted(name) +
+      text_.fail("unknown PLY format " + in_quotes(name) +
                  "; known are ascii, binary_little_endian and binary_big_endian");
-    if (version != "1.0") text_.fail("unknown PLY version " + quoted(version) + "; known is 1.0");
+    if (version != "1.0") text_.fail("unknown PLY version " + in_quotes(version) + "; known is 1.0");
     return true;
   }
 
@@ -85,7 +85,7 @@ class HeaderReader {
   PlyType read_type() {
     const std::string_view name = text_.word();
     const std::optional<PlyType> type = type_named(name);
-    if (!type) text_.fail("unknown type " + quoted(name) + " of a property");
+    if (!type) text_.fail("unknown type " + in_quotes(name) + " of a property");
     return *type;
   }
 

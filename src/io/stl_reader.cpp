@@ -79,7 +79,7 @@ class TextReader {
         open = false;
         shape_.mesh.end_face();
       } else if (!is_frame(word)) {
-        text_.fail("unexpected word " + quoted(word) + "; the file is damaged or no STL file");
+        text_.fail("unexpected word " + in_quotes(word) + "; the file is damaged or no STL file");
       }
     }
     if (open) text_.fail("the file ends within a facet; it is cut short");

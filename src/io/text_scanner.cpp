@@ -26,7 +26,7 @@ std::string_view without_plus(std::string_view word) {
 
 }  // namespace
 
-std::string quoted(std::string_view word) {
+std::string in_quotes(std::string_view word) {
   std::string text = "\"";
   for (char c : word.substr(0, 40)) text += c >= ' ' && c <= '~' ? c : '?';
   return text + (word.size() > 40 ? "...\"" : "\"");
@@ -87,10 +87,10 @@ double TextScanner::number(std::string_view word, const char* what) const {
   double value = 0;
   const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (code == std::errc::invalid_argument || end != digits.data() + digits.size())
-    fail("expected " + std::string(what) + ", found " + quoted(word) + advice(word));
+    fail("expected " + std::string(what) + ", found " + in_quotes(word) + advice(word));
   if (code == std::errc::result_out_of_range) {
     const bool tiny = word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos;
-    if (!tiny) fail(quoted(word) + " is too large for a number; scale the shape down");
+    if (!tiny) fail(in_quotes(word) + " is too large for a number; scale the shape down");
     value = 0;
   }
   return value;
@@ -101,9 +101,9 @@ std::int64_t TextScanner::integer(std::string_view word, const char* what) const
   const std::string_view digits = without_plus(word);
   std::int64_t value = 0;
   const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (code == std::errc::result_out_of_range) fail(quoted(word) + " is too large for " + what);
+  if (code == std::errc::result_out_of_range) fail(in_quotes(word) + " is too large for " + what);
   if (code != std::errc() || end != digits.data() + digits.size())
-    fail("expected " + std::string(what) + ", found " + quoted(word));
+    fail("expected " + std::string(what) + ", found " + in_quotes(word));
   return value;
 }
 

@@ -47,6 +47,6 @@ class TextScanner {
 };
 
 /// At most 40 printable characters of a word, in quotes, for messages.
-std::string quoted(std::string_view word);
+std::string in_quotes(std::string_view word);
 
 }  // namespace pelage

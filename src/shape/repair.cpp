@@ -136,9 +136,9 @@ TriangleMesh repair(TriangleMesh mesh, std::vector<Finding>& findings, const std
   if (work.mesh.triangles.empty())
     throw ShapeFault(ShapeFault::Element::none, 0, "no face of the shape has an area; nothing can grow on it");
 
-  const std::vector<HalfEdge> opposite = pair_half_edges(work, place, findings);
-  renumber_by_fans(work, opposite, findings);
-  orient(work, opposite, findings);
+  const EdgePairs pairs = pair_half_edges(work, place, findings);
+  renumber_by_fans(work, pairs, findings);
+  orient(work, pairs.opposite, findings);
   drop_unused_vertices(work);  // those of removed faces, which are reported already
   report_zero_area(work, findings);
   report_near_copies(work, findings);

@@ -7,35 +7,16 @@
 #include <span>
 #include <string>
 
+#include "shape/places.h"
+
 namespace pelage {
 
-namespace {
-
-HalfEdge first_open(const EdgeTable& edges, std::size_t e) { return edges[e].size() == 1 ? edges[e][0] : -1; }
-
-}  // namespace
-
 std::vector<std::int32_t> open_places(const TriangleMesh& mesh) {
-  std::vector<std::int32_t> place(mesh.points.size());
-  std::iota(place.begin(), place.end(), 0);
   std::vector<char> open(mesh.points.size(), 0);
   const EdgeTable edges(mesh.triangles, mesh.points.size());
   for (std::size_t e = 0; e < edges.size(); ++e)
-    if (const HalfEdge h = first_open(edges, e); h >= 0)
-      open[tail(mesh.triangles, h)] = open[tip(mesh.triangles, h)] = 1;
-
-  struct Entry {
-    Point point;
-    std::int32_t vertex;
-    auto operator<=>(const Entry&) const = default;
-  };
-  std::vector<Entry> entries;
-  for (std::size_t v = 0; v < open.size(); ++v)
-    if (open[v]) entries.push_back({mesh.points[v], static_cast<std::int32_t>(v)});
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a < b; });
-  for (std::size_t i = 1; i < entries.size(); ++i)
-    if (entries[i].point == entries[i - 1].point) place[entries[i].vertex] = place[entries[i - 1].vertex];
-  return place;
+    if (edges[e].size() == 1) open[tail(mesh.triangles, edges[e][0])] = open[tip(mesh.triangles, edges[e][0])] = 1;
+  return same_places(mesh.points, open);
 }
 
 // --- pairing ------------------------------------------------------------------------------------------------
@@ -52,6 +33,19 @@ Point unit(const Point& a) {
   return {a[0] / length, a[1] / length, a[2] / length};
 }
 
+[[noreturn]] void refuse(const NumberedMesh& work, std::span<const HalfEdge> faces) {
+  const std::vector<Triangle>& triangles = work.mesh.triangles;
+  const HalfEdge h = *std::max_element(faces.begin(), faces.end());
+  std::string others;
+  for (HalfEdge g : faces)
+    if (g != h && others.size() < 60) others += (others.empty() ? "" : ", ") + std::to_string(work.face_number[g / 3]);
+  throw ShapeFault(ShapeFault::Element::face, work.face_number[h / 3],
+                   "its edge between vertices " + std::to_string(work.vertex_number[tail(triangles, h)]) + " and " +
+                       std::to_string(work.vertex_number[tip(triangles, h)]) + " belongs to " +
+                       std::to_string(faces.size()) + " faces (also " + others +
+                       "), but on a surface two faces meet at an edge; remove inner faces or separate the parts");
+}
+
 class Pairing {
  public:
   Pairing(const NumberedMesh& work, const std::vector<std::int32_t>& place)
@@ -61,10 +55,11 @@ class Pairing {
   void pair(std::span<const HalfEdge> edge) {
     if (edge.size() == 2) return join(edge[0], edge[1]);
     if (edge.size() < 3) return;
+    crowded = true;
     const std::vector<HalfEdge> rest = pair_same_vertices(edge);
     if (rest.size() == 2) return join(rest[0], rest[1]);
     if (rest.size() < 3) return;
-    if (!pair_around(rest)) refuse(rest);
+    if (!pair_around(rest)) refuse(work_, rest);
     if (touching_count_++ == 0) first_touching_ = rest[0] / 3;
   }
 
@@ -146,19 +141,6 @@ class Pairing {
     return true;
   }
 
-  [[noreturn]] void refuse(const std::vector<HalfEdge>& faces) const {
-    const HalfEdge h = *std::max_element(faces.begin(), faces.end());
-    std::string others;
-    for (HalfEdge g : faces)
-      if (g != h && others.size() < 60)
-        others += (others.empty() ? "" : ", ") + std::to_string(work_.face_number[g / 3]);
-    throw ShapeFault(ShapeFault::Element::face, work_.face_number[h / 3],
-                     "its edge between vertices " + std::to_string(work_.vertex_number[tail(mesh_.triangles, h)]) +
-                         " and " + std::to_string(work_.vertex_number[tip(mesh_.triangles, h)]) + " belongs to " +
-                         std::to_string(faces.size()) + " faces (also " + others +
-                         "), but on a surface two faces meet at an edge; remove inner faces or separate the parts");
-  }
-
   const NumberedMesh& work_;
   const TriangleMesh& mesh_;
   const std::vector<std::int32_t>& place_;
@@ -167,12 +149,13 @@ class Pairing {
 
  public:
   std::vector<HalfEdge> opposite;
+  bool crowded = false;
 };
 
 }  // namespace
 
-std::vector<HalfEdge> pair_half_edges(const NumberedMesh& work, const std::vector<std::int32_t>& place,
-                                      std::vector<Finding>& findings) {
+EdgePairs pair_half_edges(const NumberedMesh& work, const std::vector<std::int32_t>& place,
+                          std::vector<Finding>& findings) {
   std::vector<Triangle> places = work.mesh.triangles;
   for (Triangle& t : places)
     for (std::int32_t& v : t) v = place[v];
@@ -180,7 +163,7 @@ std::vector<HalfEdge> pair_half_edges(const NumberedMesh& work, const std::vecto
   Pairing pairing(work, place);
   for (std::size_t e = 0; e < edges.size(); ++e) pairing.pair(edges[e]);
   pairing.report(findings);
-  return std::move(pairing.opposite);
+  return {std::move(pairing.opposite), pairing.crowded};
 }
 
 // --- fans ---------------------------------------------------------------------------------------------------
@@ -259,6 +242,15 @@ Renumbering number_fans(const NumberedMesh& work, const std::vector<std::int32_t
   return result;
 }
 
+/// Sheets that touch along an edge can still be joined at both its ends: then no numbers tell them apart.
+void check_separation(const NumberedMesh& work, const Renumbering& renumbering) {
+  std::vector<Triangle> triangles(work.mesh.triangles.size());
+  for (std::size_t c = 0; c < renumbering.corner.size(); ++c) triangles[c / 3][c % 3] = renumbering.corner[c];
+  const EdgeTable edges(triangles, renumbering.source.size());
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (edges[e].size() > 2) refuse(work, edges[e]);
+}
+
 /// Makes a corner attribute of every vertex attribute that is not the same on both sides of a seam.
 void keep_seams(TriangleMesh& mesh, const Renumbering& renumbering) {
   for (Attribute& a : mesh.attributes) {
@@ -281,8 +273,9 @@ void keep_seams(TriangleMesh& mesh, const Renumbering& renumbering) {
 
 }  // namespace
 
-void renumber_by_fans(NumberedMesh& work, const std::vector<HalfEdge>& opposite, std::vector<Finding>& findings) {
-  Renumbering renumbering = number_fans(work, fans(work.mesh, opposite));
+void renumber_by_fans(NumberedMesh& work, const EdgePairs& pairs, std::vector<Finding>& findings) {
+  Renumbering renumbering = number_fans(work, fans(work.mesh, pairs.opposite));
+  if (pairs.crowded) check_separation(work, renumbering);
   Finding &seams = renumbering.seams, &touching = renumbering.touching;
   if (seams.count == 0 && touching.count == 0) return;
   keep_seams(work.mesh, renumbering);

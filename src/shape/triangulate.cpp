@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "shape/places.h"
+
 namespace pelage {
 
 namespace {
@@ -148,18 +150,23 @@ std::vector<char> vertices_of_two_faces(const PolygonMesh& polygons) {
   struct Fan {
     std::int32_t before = -1, after = -1, faces = 0;
   };
-  std::vector<Fan> fans(polygons.points.size());
-  std::vector<char> marked(polygons.points.size(), 0);
+  const std::size_t vertices = polygons.points.size();
+  std::vector<char> marked(vertices, 0);
+  if (polygons.corners.size() == 3 * polygons.face_count()) return marked;
+  const std::vector<std::int32_t> place = same_places(polygons.points, std::vector<char>(vertices, 1));
+  std::vector<Fan> fans(vertices);
   for (std::size_t f = 0; f < polygons.face_count(); ++f) {
     const std::size_t begin = polygons.face_begin(f), end = polygons.face_ends[f];
     for (std::size_t c = begin; c < end; ++c) {
-      const std::int32_t before = polygons.corners[c == begin ? end - 1 : c - 1];
-      const std::int32_t after = polygons.corners[c + 1 == end ? begin : c + 1];
-      Fan& fan = fans[polygons.corners[c]];
-      marked[polygons.corners[c]] = ++fan.faces == 2 && fan.before == after && fan.after == before;
+      const std::int32_t v = place[polygons.corners[c]];
+      const std::int32_t before = place[polygons.corners[c == begin ? end - 1 : c - 1]];
+      const std::int32_t after = place[polygons.corners[c + 1 == end ? begin : c + 1]];
+      Fan& fan = fans[v];
+      marked[v] = ++fan.faces == 2 && fan.before == after && fan.after == before;
       if (fan.faces == 1) fan = {before, after, 1};
     }
   }
+  for (std::size_t v = 0; v < vertices; ++v) marked[v] = marked[place[v]];
   return marked;
 }
 
