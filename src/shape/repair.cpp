@@ -129,19 +129,22 @@ TriangleMesh repair(TriangleMesh mesh, std::vector<Finding>& findings, const std
   std::vector<std::int32_t> place(work.mesh.points.size());
   std::iota(place.begin(), place.end(), 0);
   drop_duplicate_faces(work, place, findings);
-  if (std::vector<std::int32_t> open = open_places(work.mesh); open != place) {
+  EdgeTable edges(work.mesh.triangles, work.mesh.points.size());
+  if (std::vector<std::int32_t> open = open_places(work.mesh, edges); open != place) {
     place = std::move(open);
     drop_duplicate_faces(work, place, findings);
+    edges = edges_of_places(work.mesh, place);
   }
   if (work.mesh.triangles.empty())
     throw ShapeFault(ShapeFault::Element::none, 0, "no face of the shape has an area; nothing can grow on it");
 
-  const EdgePairs pairs = pair_half_edges(work, place, findings);
+  const EdgePairs pairs = pair_half_edges(work, place, edges, findings);
   renumber_by_fans(work, pairs, findings);
   orient(work, pairs.opposite, findings);
   drop_unused_vertices(work);  // those of removed faces, which are reported already
   report_zero_area(work, findings);
-  report_near_copies(work, findings);
+  const bool closed = std::find(pairs.opposite.begin(), pairs.opposite.end(), -1) == pairs.opposite.end();
+  if (!closed) report_near_copies(work, findings);
   return std::move(work.mesh);
 }
 

@@ -11,9 +11,8 @@
 
 namespace pelage {
 
-std::vector<std::int32_t> open_places(const TriangleMesh& mesh) {
+std::vector<std::int32_t> open_places(const TriangleMesh& mesh, const EdgeTable& edges) {
   std::vector<char> open(mesh.points.size(), 0);
-  const EdgeTable edges(mesh.triangles, mesh.points.size());
   for (std::size_t e = 0; e < edges.size(); ++e)
     if (edges[e].size() == 1) open[tail(mesh.triangles, edges[e][0])] = open[tip(mesh.triangles, edges[e][0])] = 1;
   return same_places(mesh.points, open);
@@ -154,12 +153,15 @@ class Pairing {
 
 }  // namespace
 
-EdgePairs pair_half_edges(const NumberedMesh& work, const std::vector<std::int32_t>& place,
-                          std::vector<Finding>& findings) {
-  std::vector<Triangle> places = work.mesh.triangles;
+EdgeTable edges_of_places(const TriangleMesh& mesh, const std::vector<std::int32_t>& place) {
+  std::vector<Triangle> places = mesh.triangles;
   for (Triangle& t : places)
     for (std::int32_t& v : t) v = place[v];
-  const EdgeTable edges(places, place.size());
+  return EdgeTable(places, place.size());
+}
+
+EdgePairs pair_half_edges(const NumberedMesh& work, const std::vector<std::int32_t>& place, const EdgeTable& edges,
+                          std::vector<Finding>& findings) {
   Pairing pairing(work, place);
   for (std::size_t e = 0; e < edges.size(); ++e) pairing.pair(edges[e]);
   pairing.report(findings);

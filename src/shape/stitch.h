@@ -13,7 +13,11 @@ namespace pelage {
 
 /// For each vertex the smallest number of a vertex in exactly the same place. Only vertices on open edges
 /// (edges with one face) are compared; every other one is alone. Closed surfaces that touch stay apart.
-std::vector<std::int32_t> open_places(const TriangleMesh& mesh);
+/// `edges` is the table of the mesh.
+std::vector<std::int32_t> open_places(const TriangleMesh& mesh, const EdgeTable& edges);
+
+/// The edges of the mesh with vertices of the same place taken as one.
+EdgeTable edges_of_places(const TriangleMesh& mesh, const std::vector<std::int32_t>& place);
 
 struct EdgePairs {
   std::vector<HalfEdge> opposite;  ///< per half-edge: the one across the edge, or -1 on the boundary
@@ -26,7 +30,8 @@ struct EdgePairs {
 /// direction, and around the edge the inside and the outside of the solid alternate; sheets are joined around
 /// the inside. Every other edge with three or more faces is a ShapeFault. Reports "touching-edges".
 /// No triangle may have two corners of the same place.
-EdgePairs pair_half_edges(const NumberedMesh& work, const std::vector<std::int32_t>& place,
+/// `edges` is the table of edges_of_places.
+EdgePairs pair_half_edges(const NumberedMesh& work, const std::vector<std::int32_t>& place, const EdgeTable& edges,
                           std::vector<Finding>& findings);
 
 /// Gives every fan of faces (connected around a vertex through `pairs`) a vertex of its own. The fan keeps
