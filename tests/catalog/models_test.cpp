@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/random.h"
+#include "catalog/embedded.h"
 #include "react/kinetics.h"
 #include "react/stability.h"
 
@@ -166,6 +167,29 @@ TEST(Models, UnknownNames) {
   EXPECT_NE(error_of("qqq").find("there are brusselator"), std::string::npos);
   EXPECT_EQ(error_of("turing:prodution"), "unknown model \"turing:prodution\"; did you mean \"turing:production\"?");
   EXPECT_EQ(error_of("/none.toml", Fault::input), "/none.toml: cannot be read; check the path");
+}
+
+TEST(Models, DamagedTextsAreFaultsAndNothingWorse) {
+  const std::string pieces[] = {"(", ")", "^",      "-",    "u",  "9",    "\"",  "[",
+                                "=", ",", "noise(", "not ", "\n", "\xFF", "1e9", "if("};
+  for (const EmbeddedFile& file : embedded_files()) {
+    if (!file.path.starts_with("models/")) continue;
+    for (std::uint64_t trial = 0; trial < 400; ++trial) {
+      std::string text(file.text);
+      for (std::uint64_t edit = 0; edit <= trial % 4; ++edit) {
+        const std::uint64_t key = hash(trial, edit);
+        const std::size_t at = key % text.size();
+        text.replace(at, (key >> 32) % 5, pieces[(key >> 40) % std::size(pieces)]);
+      }
+      try {
+        const Model model = compile(parse_model(text, "m.toml"));
+        if (trial % 8 == 0) analyse(model);
+      } catch (const Error& error) {
+        EXPECT_EQ(error.fault(), Fault::usage);
+        EXPECT_GT(error.where().line, 0) << error.what();
+      }
+    }
+  }
 }
 
 TEST(Models, FilesOfTheUser) {
