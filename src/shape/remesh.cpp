@@ -104,7 +104,7 @@ void Remesher::split(double longest) {
   for (const Edge& e : edges()) {
     if (e.length <= longest) continue;
     middle[e.corner] = middle[e.twin] = static_cast<int>(points_.size());
-    points_.push_back((points_[vertex(e.corner)] + points_[vertex(next_halfedge(e.corner))]) / 2);
+    points_.emplace_back((points_[vertex(e.corner)] + points_[vertex(next_halfedge(e.corner))]) / 2);
   }
   std::vector<Triangle> result;
   for (int f = 0; f < static_cast<int>(triangles_.size()); ++f) {
@@ -234,7 +234,7 @@ void Remesher::relax(const std::function<Point(const Point&)>& project) {
 
 }  // namespace
 
-TriangleMesh remesh(TriangleMesh mesh, std::size_t vertices, const std::function<Point(const Point&)>& project) {
+TriangleMesh remesh(const TriangleMesh& mesh, std::size_t vertices, const std::function<Point(const Point&)>& project) {
   Remesher remesher(mesh);
   // Equilateral triangles of edge L take sqrt(3)/2 L^2 per vertex; the rounds correct what the limits make of it.
   double edge = std::sqrt(2 / std::sqrt(3.0) * remesher.area() / static_cast<double>(vertices));

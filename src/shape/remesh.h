@@ -11,6 +11,6 @@ namespace pelage {
 /// edge splits, collapses, flips and tangential relaxation (Botsch, Kobbelt 2004, "A remeshing approach to
 /// multiresolution modeling", section 4). `project` brings a point near the surface onto it; it is called from
 /// several threads. Needs a closed manifold mesh; attributes are dropped.
-TriangleMesh remesh(TriangleMesh mesh, std::size_t vertices, const std::function<Point(const Point&)>& project);
+TriangleMesh remesh(const TriangleMesh& mesh, std::size_t vertices, const std::function<Point(const Point&)>& project);
 
 }  // namespace pelage
