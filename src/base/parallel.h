@@ -10,6 +10,7 @@
 #ifdef PELAGE_HAS_TBB
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #endif
 
 namespace pelage {
@@ -51,6 +52,17 @@ T ordered_sum(std::size_t n, T zero, Partial&& partial, std::size_t chunk = defa
 
 /// Number of threads that loops may use. Results must not depend on it.
 int concurrency();
+
+/// Calls body() so that all parallel work inside runs on one thread: for libraries whose results depend on the
+/// number of threads.
+template <class Body>
+void run_on_one_thread(Body&& body) {
+#ifdef PELAGE_HAS_TBB
+  tbb::task_arena(1).execute([&] { body(); });
+#else
+  body();
+#endif
+}
 
 /// Limits the number of threads for as long as it lives (0: all cores).
 class ThreadLimit {

@@ -10,8 +10,10 @@ struct Method {
   Discretisation (*make)(Topology);
 };
 
+Discretisation default_loop(Topology topology) { return loop_discretisation(std::move(topology)); }
+
 constexpr Method methods[] = {
-    {"loop", loop_discretisation},
+    {"loop", default_loop},
     {"linear", linear_discretisation},
 };
 

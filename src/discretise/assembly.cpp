@@ -282,6 +282,29 @@ QuadratureGeometry quadrature_geometry(const Discretisation& d, const std::vecto
   return g;
 }
 
+std::vector<Point> quadrature_gradients(const Discretisation& d, const std::vector<Point>& control,
+                                        const Vector& coefficients) {
+  std::vector<Point> gradient(static_cast<std::size_t>(d.first_point.back()));
+  parallel_for(d.elements(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      const ElementClass& c = d.classes[at(d.element_class[e])];
+      const Index* function = d.function.data() + d.first_function[e];
+      for (Index q = 0; q < c.points(); ++q) {
+        double v = 0, w = 0;
+        for (Index i = 0; i < c.functions(); ++i) {
+          v += c.dv(q, i) * coefficients[function[i]];
+          w += c.dw(q, i) * coefficients[function[i]];
+        }
+        const Metric m = metric(c, q, function, control);
+        const Form inverse = gradient_form(m, m.area > 0 ? 1 / m.area : 0);
+        const Eigen::Vector3d g = (inverse.vv * v + inverse.vw * w) * m.xv + (inverse.vw * v + inverse.ww * w) * m.xw;
+        gradient[static_cast<std::size_t>(d.first_point[e] + q)] = {g[0], g[1], g[2]};
+      }
+    }
+  });
+  return gradient;
+}
+
 SparseMatrix quadrature_values(const Discretisation& d) {
   auto pattern = std::make_shared<SparsePattern>();
   pattern->rows = static_cast<std::int32_t>(d.first_point.back());

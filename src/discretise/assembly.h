@@ -53,6 +53,10 @@ struct QuadratureGeometry {
 };
 QuadratureGeometry quadrature_geometry(const Discretisation& discretisation, const std::vector<Point>& control);
 
+/// Surface gradients of a function at the quadrature points, as vectors in space.
+std::vector<Point> quadrature_gradients(const Discretisation& discretisation, const std::vector<Point>& control,
+                                        const Vector& coefficients);
+
 /// Quadrature points x unknowns: the values of the basis functions there.
 SparseMatrix quadrature_values(const Discretisation& discretisation);
 

@@ -40,9 +40,15 @@ struct Discretisation {
   std::size_t elements() const { return element_class.size(); }
 };
 
-/// Loop finite elements (Cirak, Ortiz, Schroeder 2000): 6-point quadrature (exact for quartics); triangles with an
-/// extraordinary corner are first split once. Throws Error(Fault::input) when a valence is above max_loop_valence.
-Discretisation loop_discretisation(Topology topology);
+/// How often triangles are split into four before the 6-point rule (exact for quartics) is applied to the parts.
+struct LoopQuadrature {
+  int regular_splits = 0;
+  int irregular_splits = 1;  ///< of triangles with an extraordinary corner
+};
+
+/// Loop finite elements (Cirak, Ortiz, Schroeder 2000). Throws Error(Fault::input) when a valence is above
+/// max_loop_valence.
+Discretisation loop_discretisation(Topology topology, const LoopQuadrature& quadrature = {});
 
 /// Linear finite elements (the cotangent method) on the flat triangles: 3-point quadrature at the edge midpoints, exact
 /// for quadratics, hence for the mass matrix.

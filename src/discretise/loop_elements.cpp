@@ -37,8 +37,10 @@ std::vector<QuadraturePoint> split(const std::vector<QuadraturePoint>& rule) {
   return fine;
 }
 
-ElementClass tabulate(const LoopPatches& patches, Index patch_class) {
-  const auto rule = patches.polynomial(patch_class) ? six_point_rule() : split(six_point_rule());
+ElementClass tabulate(const LoopPatches& patches, Index patch_class, const LoopQuadrature& quadrature) {
+  auto rule = six_point_rule();
+  const int splits = patches.polynomial(patch_class) ? quadrature.regular_splits : quadrature.irregular_splits;
+  for (int i = 0; i < splits; ++i) rule = split(rule);
   const auto points = static_cast<Eigen::Index>(rule.size());
   ElementClass element;
   element.value.resize(points, patches.size(patch_class));
@@ -89,7 +91,7 @@ void refuse_high_valence(const Topology& topology) {
 
 }  // namespace
 
-Discretisation loop_discretisation(Topology topology) {
+Discretisation loop_discretisation(Topology topology, const LoopQuadrature& quadrature) {
   refuse_high_valence(topology);
   Discretisation d;
   d.method = "loop";
@@ -105,7 +107,7 @@ Discretisation loop_discretisation(Topology topology) {
     if (table.size() < patches.class_count()) table.resize(patches.class_count(), -1);
     if (table[patch_class] < 0) {
       table[patch_class] = static_cast<Index>(d.classes.size());
-      d.classes.push_back(tabulate(patches, static_cast<Index>(patch_class)));
+      d.classes.push_back(tabulate(patches, static_cast<Index>(patch_class), quadrature));
     }
     d.element_class.push_back(table[patch_class]);
     d.first_function.push_back(static_cast<std::int64_t>(d.function.size()));

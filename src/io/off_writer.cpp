@@ -5,7 +5,8 @@
 namespace pelage {
 
 std::string encode_off(const TriangleMesh& mesh) {
-  std::string text = "OFF\n" + std::to_string(mesh.points.size()) + " " + std::to_string(mesh.triangles.size()) + " 0\n";
+  std::string text =
+      "OFF\n" + std::to_string(mesh.points.size()) + " " + std::to_string(mesh.triangles.size()) + " 0\n";
   for (const Point& p : mesh.points) {
     for (std::size_t k = 0; k < 3; ++k) {
       append_text(text, p[k]);

@@ -70,7 +70,8 @@ bool exact_as_float(const std::vector<Point>& points) {
 std::string header(const TriangleMesh& mesh, const std::vector<Column>& columns, bool floats) {
   std::string text = "ply\nformat binary_little_endian 1.0\ncomment written by pelage\n";
   text += "element vertex " + std::to_string(mesh.points.size()) + "\n";
-  for (const char* axis : {"x", "y", "z"}) text += std::string("property ") + (floats ? "float " : "double ") + axis + "\n";
+  for (const char* axis : {"x", "y", "z"})
+    text += std::string("property ") + (floats ? "float " : "double ") + axis + "\n";
   for (const Column& column : columns)
     text += (column.encoding == Encoding::number ? "property float " : "property uchar ") + column.name + "\n";
   text += "element face " + std::to_string(mesh.triangles.size()) + "\n";

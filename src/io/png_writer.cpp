@@ -44,7 +44,9 @@ void write_png(const Image& image, const std::string& path) {
 
 void check_picture_path(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) { return c == 'P' ? 'p' : c == 'N' ? 'n' : c == 'G' ? 'g' : c; });
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
+    return c == 'P' ? 'p' : c == 'N' ? 'n' : c == 'G' ? 'g' : c;
+  });
   if (extension != ".png") throw Error(Fault::usage, "pictures are written as PNG; end the name in .png", {path});
   check_folder(path);
 }

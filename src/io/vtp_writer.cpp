@@ -103,7 +103,8 @@ void append_base64(std::string& text, const std::string& bytes) {
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
     std::uint32_t group = 0;
-    for (std::size_t k = 0; k < count; ++k) group |= std::uint32_t{static_cast<unsigned char>(bytes[i + k])} << (16 - 8 * k);
+    for (std::size_t k = 0; k < count; ++k)
+      group |= std::uint32_t{static_cast<unsigned char>(bytes[i + k])} << (16 - 8 * k);
     for (std::size_t k = 0; k <= count; ++k) out[k] = digits[(group >> (18 - 6 * k)) & 63];
     out += 4;
   }

@@ -49,7 +49,8 @@ const Writer& find_writer(const std::string& path) {
   const std::string what = extension.empty() ? "a mesh file needs an extension that names its format"
                                              : "cannot write meshes as \"" + extension + "\"";
   const std::string hint = did_you_mean(extension, mesh_extensions());
-  throw Error(Fault::usage, what + "; known: " + join_names(mesh_extensions()) + (hint.empty() ? "" : "; " + hint), {path});
+  throw Error(Fault::usage, what + "; known: " + join_names(mesh_extensions()) + (hint.empty() ? "" : "; " + hint),
+              {path});
 }
 
 bool fits_float(double x) { return std::abs(x) <= std::numeric_limits<float>::max(); }  // false for NaN

@@ -14,7 +14,8 @@ namespace pelage {
 struct CornerSplit {
   std::vector<Triangle> triangles;   ///< the triangles of the mesh in numbers of split vertices
   std::vector<std::int32_t> vertex;  ///< per split vertex: the vertex of the mesh that it comes from
-  std::vector<std::int32_t> corner;  ///< per split vertex: a corner 3*f+k that carries its values, -1 if no triangle has it
+  std::vector<std::int32_t>
+      corner;  ///< per split vertex: a corner 3*f+k that carries its values, -1 if no triangle has it
 };
 
 /// Splits where the values of any of the given attributes (all of Domain::corner) differ in any bit but

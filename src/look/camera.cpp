@@ -1,0 +1,65 @@
+#include "look/camera.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace pelage {
+
+namespace {
+
+/// How far the points reach against the two side planes of a pyramid of view, along one axis of the picture.
+struct Reach {
+  float plus = std::numeric_limits<float>::lowest();   // largest  x + t z
+  float minus = std::numeric_limits<float>::lowest();  // largest -x + t z
+
+  void add(float x, float tz) {
+    plus = std::max(plus, x + tz);
+    minus = std::max(minus, -x + tz);
+  }
+  float middle() const { return (plus - minus) / 2; }
+  float distance(float t) const { return (plus + minus) / (2 * t); }
+};
+
+}  // namespace
+
+Eigen::Vector3f Camera::direction(float x, float y) const {
+  return (right * (x * tan_x) + up * (y * tan_y) - back).normalized();
+}
+
+Eigen::Vector2f Camera::project(const Eigen::Vector3f& point) const {
+  const Eigen::Vector3f offset = point - position;
+  const float depth = -offset.dot(back);
+  return {offset.dot(right) / (depth * tan_x), offset.dot(up) / (depth * tan_y)};
+}
+
+Camera frame_points(const std::vector<Eigen::Vector3f>& points, double azimuth_degrees, double elevation_degrees,
+                    double aspect, double margin) {
+  constexpr double radian = std::numbers::pi / 180;
+  // The longer side of the picture sees 26 degrees, like a short telephoto lens: the usual one for products, since
+  // wider lenses swell what is near.
+  const double tangent = std::tan(13 * radian);
+  const auto a = static_cast<float>(azimuth_degrees * radian), e = static_cast<float>(elevation_degrees * radian);
+  Camera camera;
+  camera.back = {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
+  camera.right = {std::cos(a), 0, -std::sin(a)};
+  camera.up = camera.back.cross(camera.right);
+  camera.tan_x = static_cast<float>(tangent * std::min(1.0, aspect));
+  camera.tan_y = static_cast<float>(tangent / std::max(1.0, aspect));
+  const auto inner = static_cast<float>(1 - 2 * margin);
+  // A point p is inside if |p.x - c.x| <= t (c.z - p.z) in camera axes: two linear bounds per axis on c.
+  Reach x, y;
+  for (const Eigen::Vector3f& p : points) {
+    const float depth = p.dot(camera.back);
+    x.add(p.dot(camera.right), inner * camera.tan_x * depth);
+    y.add(p.dot(camera.up), inner * camera.tan_y * depth);
+  }
+  const float distance = std::max(x.distance(inner * camera.tan_x), y.distance(inner * camera.tan_y));
+  camera.position = camera.right * x.middle() + camera.up * y.middle() + camera.back * distance;
+  return camera;
+}
+
+}  // namespace pelage

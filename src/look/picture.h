@@ -1,0 +1,30 @@
+#pragma once
+// Pictures of meshes as in a catalogue: soft light, a shadow on the ground, a plain backdrop.
+
+#include <array>
+
+#include "base/progress.h"
+#include "pelage/triangle_mesh.h"
+#include "shape/image.h"
+
+namespace pelage {
+
+enum class UpAxis { y, z };
+
+struct PictureOptions {
+  int width = 1024;   ///< pixels, 1 to 32768
+  int height = 1024;  ///< pixels, 1 to 32768
+  int samples = 32;   ///< paths per pixel; noise falls a little faster than with their square root
+  UpAxis up = UpAxis::y;
+  double azimuth = 35;    ///< degrees around the up axis; 0 looks from +z (up y) or -y (up z), 90 from +x
+  double elevation = 14;  ///< degrees above the horizon, -89 to 89
+  std::array<double, 3> background = {0.80, 0.80, 0.79};  ///< colour of the backdrop, linear light
+};
+
+/// The mesh on the ground before a seamless backdrop, framed so that it fills the picture. "color" (linear) and
+/// "normal" at the vertices are interpolated; without normals the faces are flat, without colours they are grey.
+/// The same bits for any number of threads. Errors: Fault::usage for options outside their ranges, Fault::input for
+/// a mesh without extent, Fault::cancelled when `progress` asks to stop.
+Image render(const TriangleMesh& mesh, const PictureOptions& options = {}, const Progress& progress = {});
+
+}  // namespace pelage
