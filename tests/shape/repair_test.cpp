@@ -236,6 +236,25 @@ TEST(Repair, TurnsClosedComponentsOutwardFarFromTheOriginToo) {
   EXPECT_NEAR(describe(result, {}).volume, 1 + test::volume(torus()), 1e-6);
 }
 
+TEST(Repair, TheSideIsChosenAfterTheFacesAgree) {
+  TriangleMesh mesh = cube();
+  int flipped = 0;  // five of the six triangles that see the first vertex of the mesh
+  for (Triangle& t : mesh.triangles)
+    if (std::find(t.begin(), t.end(), 0) == t.end() && flipped < 5 && mesh.points[t[0]] != Point{0, 0, 0}) {
+      const bool far = [&] {
+        for (int k = 0; k < 3; ++k)
+          if (mesh.points[t[0]][k] == 1 && mesh.points[t[1]][k] == 1 && mesh.points[t[2]][k] == 1) return true;
+        return false;
+      }();
+      if (far) std::swap(t[1], t[2]), ++flipped;
+    }
+  EXPECT_EQ(flipped, 5);
+  std::vector<Finding> findings;
+  EXPECT_EQ(repaired(mesh, findings).triangles, cube().triangles);
+  EXPECT_EQ(find(findings, "flipped-faces")->count, 5u);
+  EXPECT_FALSE(find(findings, "inward-components"));
+}
+
 TEST(Repair, AnOpenSheetKeepsItsSide) {
   TriangleMesh mesh = sheet();
   std::swap(mesh.triangles[5][0], mesh.triangles[5][1]);
