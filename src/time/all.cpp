@@ -28,7 +28,7 @@ std::vector<std::string> stepper_names() {
 std::unique_ptr<Stepper> make_stepper(const std::string& name) {
   for (const Entry& e : steppers)
     if (name == e.name) return e.make();
-  throw Error(Fault::usage, "unknown stepper '" + name + "'; known are " + join_names(stepper_names()) + "; " + did_you_mean(name, stepper_names()));
+  throw Error(Fault::usage, unknown_name("stepper", name, stepper_names()));
 }
 
 }  // namespace pelage

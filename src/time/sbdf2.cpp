@@ -21,7 +21,7 @@ class Sbdf2 final : public Stepper {
   };
   static Scheme scheme(const State& state, double dt);
   void right_hand_side(const System& system, const Scheme& s, std::size_t species, double dt);
-  static double error_estimate(const State& state, const std::vector<Vector>& next, double dt);
+  static double error_estimate(const System& system, const State& state, const std::vector<Vector>& next, double dt);
 
   std::vector<StepMatrix> matrices_;
   std::vector<Vector> samples_, samples_before_, rates_, rates_before_, next_;
@@ -51,8 +51,9 @@ void Sbdf2::right_hand_side(const System& system, const Scheme& s, std::size_t i
 }
 
 /// The local error of backward differences of second order, 2/9 dt^3 u''', and as much again twice for the extrapolated
-/// reaction; u''' from the third divided difference. Relative to the size of the field.
-double Sbdf2::error_estimate(const State& state, const std::vector<Vector>& next, double dt) {
+/// reaction; u''' from the third divided difference. Root mean square, relative to the size of the field. Coefficients
+/// that a clamp holds or has just let go are left out: their third derivative does not exist.
+double Sbdf2::error_estimate(const System& system, const State& state, const std::vector<Vector>& next, double dt) {
   if (state.past.size() < 2) return 0;
   const double t1 = -dt, t2 = t1 - state.past_steps[0], t3 = t2 - state.past_steps[1];
   // Divided difference [u(0), u(t1), u(t2), u(t3)] as weights of the four states.
@@ -62,16 +63,19 @@ double Sbdf2::error_estimate(const State& state, const std::vector<Vector>& next
   double worst = 0;
   for (std::size_t i = 0; i < next.size(); ++i) {
     const Vector &u0 = next[i], &u1 = state.now[i], &u2 = state.past[0][i], &u3 = state.past[1][i];
-    const auto sums = ordered_sum(static_cast<std::size_t>(u0.size()), Eigen::Array2d{0, 0},
-                                  [&](std::size_t begin, std::size_t end) {
-                                    Eigen::Array2d sum{0, 0};
-                                    for (auto k = static_cast<Eigen::Index>(begin); k < static_cast<Eigen::Index>(end); ++k) {
-                                      const double difference = c0 * u0[k] + c1 * u1[k] + c2 * u2[k] + c3 * u3[k];
-                                      sum[0] += difference * difference;
-                                      sum[1] += u0[k] * u0[k];
-                                    }
-                                    return sum;
-                                  });
+    const Species& s = system.species[i];
+    auto free = [&](double u) { return u > s.lower && u < s.upper; };
+    auto partial = [&](std::size_t begin, std::size_t end) {
+      Eigen::Array2d sum{0, 0};
+      for (auto k = static_cast<Eigen::Index>(begin); k < static_cast<Eigen::Index>(end); ++k) {
+        sum[1] += u0[k] * u0[k];
+        if (!(free(u0[k]) && free(u1[k]) && free(u2[k]) && free(u3[k]))) continue;
+        const double difference = c0 * u0[k] + c1 * u1[k] + c2 * u2[k] + c3 * u3[k];
+        sum[0] += difference * difference;
+      }
+      return sum;
+    };
+    const auto sums = ordered_sum(static_cast<std::size_t>(u0.size()), Eigen::Array2d{0, 0}, partial);
     if (sums[1] > 0) worst = std::max(worst, scale * std::sqrt(sums[0] / sums[1]));
   }
   return worst;
@@ -101,7 +105,7 @@ StepReport Sbdf2::step(const System& system, State& state, const StepRequest& re
     matrices_[i].solve(rhs_, next_[i], species.name, request.solver_tolerance, report);
   }
   if (report.failure.empty()) {
-    report.error = error_estimate(state, next_, dt);
+    report.error = error_estimate(system, state, next_, dt);
     if (report.error > request.largest_error) return report;
   }
   advance(system, state, dt, next_, report);

@@ -51,8 +51,9 @@ void advance(const System& system, State& state, double dt, std::vector<Vector>&
     report.minimum = std::min(report.minimum, next[i].minCoeff());
     report.maximum = std::max(report.maximum, next[i].maxCoeff());
     const Vector difference = next[i] - state.now[i];
-    const double size = std::sqrt(dot(next[i], next[i]));
-    if (size > 0) report.change = std::max(report.change, std::sqrt(dot(difference, difference)) / (size * dt));
+    const Vector deviation = next[i].array() - next[i].mean();
+    const double amplitude = std::sqrt(dot(deviation, deviation)), moved = std::sqrt(dot(difference, difference));
+    if (moved > 0) report.change = std::max(report.change, moved / (amplitude * dt));
   }
   std::swap(state.now, next);
   state.past.insert(state.past.begin(), std::move(next));
