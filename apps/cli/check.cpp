@@ -94,11 +94,12 @@ void check(const CheckOptions& options) {
 
 Command add_check(CLI::App& parent) {
   auto options = std::make_shared<CheckOptions>();
-  CLI::App* app = parent.add_subcommand("check", "Say what a shape is and what would be repaired");
-  app->description(
-      "Describes a shape as grow sees it: counts, components, genus, boundary, valences, edge lengths,\n"
-      "angles, and what was found and repaired while reading. A shape that cannot be used is refused\n"
-      "with exit code 3; the file itself is never changed.");
+  CLI::App* app = parent.add_subcommand(
+      "check",
+      "Say what a shape is and what would be repaired\n"
+      "Describes a shape as grow sees it: counts, components, genus, boundary, valences, edge lengths, angles, "
+      "and what was found and repaired while reading. A shape that cannot be used is refused with exit code 3; "
+      "the file itself is never changed.");
   app->add_option("SHAPE", options->shape,
                   "An OBJ, PLY, STL, OFF, glTF or GLB file, or builtin:NAME?n=VERTICES (see grow --help)")
       ->required()

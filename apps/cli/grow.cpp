@@ -38,6 +38,13 @@ void stop_if_interrupted() {
   if (interrupt_signal()) throw Error(Fault::cancelled, "interrupted; nothing more was written");
 }
 
+/// Names are looked up before the shape is read, which may take long: a stand-in of extent 1 will do.
+void check_names(const Recipe& recipe) {
+  TriangleMesh stand_in;
+  stand_in.points = {{0, 0, 0}, {1, 0, 0}};
+  resolve(recipe, std::move(stand_in));
+}
+
 /// Loop elements are made for moderate valences; who did not ask for them gets what works.
 void choose_method(Stage& stage, bool asked, const TriangleMesh& mesh, GrowReport& report) {
   if (asked || stage.method.value != "loop") return;
@@ -94,7 +101,9 @@ void write_outputs(const GrowOptions& options, const TriangleMesh& coat, const P
   PictureOptions picture;
   picture.width = picture.height = options.picture_size;
   picture.up = options.up;
-  write_png(render(coat, picture, progress), options.picture);
+  const std::string task = "drawing " + options.picture;
+  write_png(render(coat, picture, [&](std::string_view, double fraction) { return progress(task, fraction); }),
+            options.picture);
   report.file(options.picture);
 }
 
@@ -106,6 +115,7 @@ GrowReport::Form form_of(const GrowOptions& options) {
 void grow(const GrowOptions& options) {
   Recipe recipe = make_recipe(options);
   check_outputs(options, recipe.shape);
+  check_names(recipe);
   catch_interrupts();
   const ThreadLimit threads(options.threads.value_or(0));
   ProgressBar bar(options.quiet ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
@@ -121,7 +131,7 @@ void grow(const GrowOptions& options) {
 
   Run run(resolve(recipe, std::move(file.mesh)), progress);
   restore(run, options.resume);
-  report.pattern(run);
+  report.pattern(recipe.stage.model.value, run);
   const Stopwatch growth;
   grow_to_the_end(run, options, progress);
   report.growth(run, growth.seconds());
@@ -137,10 +147,11 @@ void grow(const GrowOptions& options) {
 
 Command add_grow(CLI::App& parent) {
   auto options = std::make_shared<GrowOptions>();
-  CLI::App* app = parent.add_subcommand("grow", "Grow a coat on a shape and write a coated mesh, a picture or both");
-  app->description(
-      "Grows a reaction-diffusion pattern on a shape. The spacing of the pattern is set by --size alone; a\n"
-      "mesh that is too coarse for it is refined on its smooth surface.");
+  CLI::App* app = parent.add_subcommand(
+      "grow",
+      "Grow a coat on a shape and write a coated mesh, a picture or both\n"
+      "The spacing of the pattern is set by --size alone; a mesh that is too coarse for it is refined on its "
+      "smooth surface.");
   add_options(*app, *options);
   app->footer(
       "Examples:\n"

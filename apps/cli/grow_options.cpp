@@ -111,8 +111,9 @@ void add_look_options(CLI::App& app, GrowOptions& o) {
 
 void add_output_options(CLI::App& app, GrowOptions& o) {
   const std::string group = "Output";
-  app.add_option("-o,--output", o.outputs, "Files for the coated mesh" + choices(mesh_extensions()))
-      ->type_name("FILE,...")
+  app.add_option("-o,--output", o.outputs,
+                 "Files for the coated mesh; the extension is the format" + choices(mesh_extensions()))
+      ->type_name("FILE[,FILE]")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->group(group);

@@ -72,16 +72,16 @@ void GrowReport::shape(const std::string& name, const ShapeFile& file) {
                     {"findings", json_findings(file.findings)}};
 }
 
-void GrowReport::pattern(const Run& run) {
+void GrowReport::pattern(const std::string& model, const Run& run) {
   const Program& p = run.program();
   const Topology& topology = run.operators().discretisation().topology;
   const double density = p.size / prevailing_edge(topology.triangles, run.operators().control());
   const double relative = p.size / bounding_diagonal(p.shape);
-  line("pattern", p.model.name() + " at a wavelength of " + number(p.size) + " world units (" + number(relative) +
-                      " of the diagonal)");
+  line("pattern",
+       model + " at a wavelength of " + number(p.size) + " world units (" + brief(relative) + " of the diagonal)");
   line("mesh", refinement(run.operators().levels(), p.method == "loop") + ": " +
-                   counted(topology.vertex_count, "vertex") + ", " + number(density) + " per wavelength");
-  json_["model"] = p.model.name();
+                   counted(topology.vertex_count, "vertex") + ", " + brief(density) + " per wavelength");
+  json_["model"] = model;
   Json parameters = Json::object();
   for (const ParameterSource& parameter : p.model.parameters()) parameters[parameter.name] = parameter.value;
   json_["parameters"] = parameters;
@@ -98,8 +98,8 @@ void GrowReport::pattern(const Run& run) {
 
 void GrowReport::growth(const Run& run, double seconds) {
   const RunSummary& s = run.summary();
-  line("growth", counted(static_cast<std::size_t>(s.steps), "step") + " to time " + number(s.time) + " in " +
-                     duration(seconds) + "; " + stop_reason(s.status));
+  line("growth", counted(static_cast<std::size_t>(s.steps), "step") + " of " + run.program().stepper + " to time " +
+                     number(s.time) + " in " + duration(seconds) + "; " + stop_reason(s.status));
   json_["growth"] = {{"status", status_name(s.status)},
                      {"steps", s.steps},
                      {"time", s.time},

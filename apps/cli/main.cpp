@@ -2,9 +2,11 @@
 
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <new>
 
 #include "command.h"
+#include "help_format.h"
 #include "interrupt.h"
 #include "pelage/error.h"
 #include "text.h"
@@ -68,9 +70,7 @@ int run(int argc, char** argv, CLI::App& app, const std::vector<pelage::Command>
 int main(int argc, char** argv) {
   CLI::App app("Grows reaction-diffusion coats directly on surfaces.", "pelage");
   app.set_version_flag("--version", "pelage " PELAGE_VERSION, "Print the version and exit");
-  app.get_formatter()->column_width(32);
-  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  app.get_formatter()->label("Subcommands", "Commands");
+  app.formatter(std::make_shared<pelage::HelpFormat>());
   app.footer(examples);
   const std::vector<pelage::Command> commands = {pelage::add_grow(app), pelage::add_check(app), pelage::add_models(app),
                                                  pelage::add_recipes(app), pelage::add_verify(app)};

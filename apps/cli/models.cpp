@@ -2,6 +2,7 @@
 
 #include "catalog/models.h"
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -51,18 +52,25 @@ void print_list(const std::vector<Entry>& list) {
   std::puts("pelage models NAME shows equations and parameters.");
 }
 
-/// "du/dt = Du lap u + R" with the formulas of the file.
+/// The formula as a factor of a product.
+std::string in_brackets(const Formula& f) {
+  return f.text.find_first_of("+-*/^ ") == std::string::npos ? f.text : "(" + f.text + ")";
+}
+
+/// The formula as a further term of a sum.
+std::string plus(const Formula& f) { return f.text.starts_with('-') ? " - " + f.text.substr(1) : " + " + f.text; }
+
+/// "du/dt = div(Du grad u) + R" with the formulas of the file.
 std::string equation(const SpeciesSource& s) {
-  const auto in_brackets = [](const Formula& f) { return "(" + f.text + ")"; };
   std::string text = "d" + s.name + "/dt = ";
   if (s.diffusion)
     text += "div(" + in_brackets(*s.diffusion) + " grad " + s.name + ")";
   else
     text += (s.c0 ? in_brackets(*s.c0) + " " : "") + "div(" + (s.c1 ? in_brackets(*s.c1) + " " : "") + "grad " +
             s.name + ")";
-  if (s.rate) text += " + " + s.rate->text;
+  if (s.rate) text += plus(*s.rate);
   if (s.c2) text += " + " + in_brackets(*s.c2) + " " + s.name;
-  if (s.c3) text += " + " + in_brackets(*s.c3);
+  if (s.c3) text += plus(*s.c3);
   return text;
 }
 
@@ -103,13 +111,20 @@ std::string steady_state(const Entry& e) {
   return text;
 }
 
+/// Below the rounding of the analysis a state is marginal.
+std::string growth(const Stability& s) {
+  constexpr double rounding = 1e-12;
+  return (std::abs(s.growth) < rounding ? "0" : number(s.growth)) + " per time" +
+         (s.oscillatory ? ", oscillating" : "");
+}
+
 void print_analysis(const Entry& e) {
   const Suggestions& suggested = e.model.source().suggestions;
   std::puts("\nAnalysis (lengths and times in the model's units)");
   const std::vector<std::vector<std::string>> rows = {
       {"steady state", steady_state(e)},
       {"critical wavelength", text_or(e.stability.wavelength, "none: the uniform state has no fastest wave")},
-      {"its growth per time", number(e.stability.growth) + (e.stability.oscillatory ? ", oscillating" : "")},
+      {"fastest growth", growth(e.stability)},
       {"wavelength used",
        text_or(e.wavelength, "none") + (e.model.source().wavelength ? " (measured on finished patterns)" : "")},
       {"time to a pattern", text_or(suggested.end, "not given")},
@@ -210,9 +225,10 @@ void models(const ModelsOptions& options) {
 
 Command add_models(CLI::App& parent) {
   auto options = std::make_shared<ModelsOptions>();
-  CLI::App* app = parent.add_subcommand("models", "List the reaction models, or show one with its equations");
-  app->description(
-      "Without NAME: a table of the built-in models and their variants. With NAME: equations,\n"
+  CLI::App* app = parent.add_subcommand(
+      "models",
+      "List the reaction models, or show one with its equations\n"
+      "Without NAME: a table of the built-in models and their variants. With NAME: equations, "
       "parameters with ranges and units, steady state and wavelength, and where the model comes from.");
   app->add_option("NAME", options->name, "A model, MODEL:VARIANT, or the path of a model's .toml file")->type_name("");
   app->add_flag("--json", options->json, "Print the result as JSON: an array of models");

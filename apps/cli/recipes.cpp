@@ -37,8 +37,10 @@ void print_list_as_json(const std::vector<std::string>& names) {
 
 Command add_recipes(CLI::App& parent) {
   auto json = std::make_shared<bool>(false);
-  CLI::App* app = parent.add_subcommand("recipes", "List the built-in recipes");
-  app->description("Lists the recipes that grow --recipe NAME knows. A recipe is a small TOML file of your own, too.");
+  CLI::App* app = parent.add_subcommand(
+      "recipes",
+      "List the built-in recipes\n"
+      "These are what grow --recipe NAME knows; --recipe also takes the path of a .toml file of your own.");
   app->add_flag("--json", *json, "Print the result as JSON");
   app->footer("Examples:\n  pelage recipes\n  pelage grow --recipe demo -o cub.glb");
   return {app, [json] { *json ? print_list_as_json(recipe_names()) : print_list(recipe_names()); }};

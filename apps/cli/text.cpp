@@ -18,6 +18,8 @@ std::string format(const char* pattern, Values... values) {
 
 }  // namespace
 
+std::string brief(double value) { return format("%.3g", value); }
+
 std::string number(double value) { return format("%.6g", value); }
 
 std::string file_size(std::uintmax_t bytes) {

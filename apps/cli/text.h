@@ -9,6 +9,9 @@ namespace pelage {
 /// Six significant digits at most: "0.0312", "1.5e-07".
 std::string number(double value);
 
+/// Three significant digits.
+std::string brief(double value);
+
 /// "812 bytes", "3.1 MB" (powers of 1000).
 std::string file_size(std::uintmax_t bytes);
 

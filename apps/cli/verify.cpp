@@ -52,9 +52,10 @@ void verify(bool json) {
 
 Command add_verify(CLI::App& parent) {
   auto json = std::make_shared<bool>(false);
-  CLI::App* app = parent.add_subcommand("verify", "Measure how exact this build is");
-  app->description(
-      "Computes the figures by which the method is judged (derivatives, invariants, orders of convergence,\n"
+  CLI::App* app = parent.add_subcommand(
+      "verify",
+      "Measure how exact this build is\n"
+      "Computes the figures by which the method is judged (derivatives, invariants, orders of convergence, "
       "eigenvalues, wavelengths) and prints each beside its bound. Takes minutes. Exit code 4 if one fails.");
   app->add_flag("--json", *json, "Print the result as JSON");
   app->footer("Examples:\n  pelage verify\n  pelage verify --json > figures.json");
