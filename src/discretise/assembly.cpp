@@ -74,7 +74,7 @@ Form gradient_form(const Metric& m, double weight, const Tensor& t) {
   if (!(m.area > 0)) return {0, 0, 0};
   Eigen::Matrix3d tensor;
   tensor << t[0], t[1], t[2], t[1], t[3], t[4], t[2], t[4], t[5];
-  const Form inverse = gradient_form(m, 1 / m.area);  // G^-1
+  const Form inverse = gradient_form(m, 1 / m.area);                // G^-1
   const Eigen::Vector3d v = inverse.vv * m.xv + inverse.vw * m.xw;  // dual tangents
   const Eigen::Vector3d w = inverse.vw * m.xv + inverse.ww * m.xw;
   const double scale = weight * m.area;

@@ -8,6 +8,9 @@ namespace pelage {
 
 namespace {
 
+/// At least so many control vertices per wavelength: Loop elements then represent a sine to better than a percent.
+constexpr double vertices_per_wavelength = 6;
+
 /// A finer mesh would need more than the memory of common machines: about 2 kB per Loop vertex.
 constexpr std::size_t max_triangles = 8'000'000;
 
@@ -56,8 +59,8 @@ Operators::Operators(const Program& program, const Progress& progress)
     sampling_ = vertex_sampling(*discretisation_, control_, mass_);
     mass_ = sampled_mass(sampling_, mass_.pattern);
   }
-  kinetics_ = std::make_unique<Kinetics>(model_, places_of(sampling_.position, sampling_.normal, length_unit_),
-                                         program.seed);
+  kinetics_ =
+      std::make_unique<Kinetics>(model_, places_of(sampling_.position, sampling_.normal, length_unit_), program.seed);
   build_species(program);
 }
 
@@ -86,8 +89,8 @@ void Operators::build_species(const Program& program) {
             std::make_unique<Kinetics>(model_, places_of(g.position, g.normal, length_unit_), program.seed);
         quadrature_values_ = quadrature_values(*discretisation_);
       }
-      variable_[i] = std::make_unique<SparseMatrix>(
-          assembler_->stiffness(control_, diffusion_at_quadrature(i, nullptr)));
+      variable_[i] =
+          std::make_unique<SparseMatrix>(assembler_->stiffness(control_, diffusion_at_quadrature(i, nullptr)));
       s.stiffness = variable_[i].get();
     }
     system_.species.push_back(s);
@@ -95,9 +98,8 @@ void Operators::build_species(const Program& program) {
   system_.reaction.rates = [this](const FieldPointers& u, double t, std::size_t begin, std::size_t end,
                                   const MutableFieldPointers& rate) { kinetics_->rates(u, t, begin, end, rate); };
   system_.reaction.split = [this](const FieldPointers& u, double t, std::size_t begin, std::size_t end,
-                                  const MutableFieldPointers& c2, const MutableFieldPointers& c3) {
-    kinetics_->split(u, t, begin, end, c2, c3);
-  };
+                                  const MutableFieldPointers& c2,
+                                  const MutableFieldPointers& c3) { kinetics_->split(u, t, begin, end, c2, c3); };
   system_.weighted_mass = [this](const Vector& factor) {
     return assembler_->mass(control_, std::vector<double>(factor.begin(), factor.end()));
   };

@@ -7,7 +7,7 @@
 #include "discretise/sampling.h"
 #include "react/kinetics.h"
 #include "run/program.h"
-#include "run/refine_for_size.h"
+#include "shape/refine.h"
 #include "time/system.h"
 
 namespace pelage {
@@ -44,8 +44,8 @@ class Operators {
   std::unique_ptr<Assembler> assembler_;
   Sampling sampling_;
   SparseMatrix mass_, stiffness_;
-  std::unique_ptr<Kinetics> kinetics_;                   ///< at the samples
-  std::unique_ptr<Kinetics> quadrature_kinetics_;        ///< at the quadrature points, for diffusion that varies
+  std::unique_ptr<Kinetics> kinetics_;             ///< at the samples
+  std::unique_ptr<Kinetics> quadrature_kinetics_;  ///< at the quadrature points, for diffusion that varies
   SparseMatrix quadrature_values_;
   std::vector<std::unique_ptr<SparseMatrix>> variable_;  ///< stiffness of species whose diffusion varies
   System system_;

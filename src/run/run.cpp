@@ -113,12 +113,25 @@ void Run::fail(const StepReport& report) {
                                     : "check the parameters of the model, or give a smaller --step");
 }
 
+CoatFields Run::fields() const {
+  CoatFields f;
+  f.shape = program_.shape;
+  f.levels = operators_->levels();
+  f.loop = program_.method == "loop";
+  f.control = operators_->control();
+  f.wavelength = program_.size;
+  for (std::size_t i = 0; i < state_.now.size(); ++i) {
+    f.species.push_back(program_.model.species_name(i));
+    f.coefficients.emplace_back(state_.now[i].begin(), state_.now[i].end());
+  }
+  return f;
+}
+
 double measured_wavelength(const SparseMatrix& mass, const SparseMatrix& stiffness, const Vector& u) {
   const Vector ones = Vector::Ones(u.size());
   const Vector integral = mass * ones;
   const Vector deviation = u.array() - dot(integral, u) / integral.sum();
-  return 2 * std::numbers::pi *
-         std::sqrt(dot(deviation, mass * deviation) / dot(deviation, stiffness * deviation));
+  return 2 * std::numbers::pi * std::sqrt(dot(deviation, mass * deviation) / dot(deviation, stiffness * deviation));
 }
 
 // --- checkpoints ----------------------------------------------------------------------------------------

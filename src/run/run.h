@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/progress.h"
+#include "look/dress.h"
 #include "run/operators.h"
 #include "run/program.h"
 #include "time/stepper.h"
@@ -23,13 +24,13 @@ enum class RunStatus {
 /// What has happened so far.
 struct RunSummary {
   RunStatus status = RunStatus::running;
-  std::string message;            ///< of a failure: what, where, and what to do
-  double time = 0;                ///< model time
+  std::string message;  ///< of a failure: what, where, and what to do
+  double time = 0;      ///< model time
   std::int64_t steps = 0;
-  double step = 0;                ///< size of the next step
-  double change = 0;              ///< of the pattern per unit of time, relative to its amplitude
-  std::int64_t iterations = 0;    ///< of the linear solver since the start or resumption
-  std::int64_t rejected = 0;      ///< steps repeated with a smaller size
+  double step = 0;                  ///< size of the next step
+  double change = 0;                ///< of the pattern per unit of time, relative to its amplitude
+  std::int64_t iterations = 0;      ///< of the linear solver since the start or resumption
+  std::int64_t rejected = 0;        ///< steps repeated with a smaller size
   double minimum = 0, maximum = 0;  ///< of the coefficients of all species
 };
 
@@ -50,6 +51,8 @@ class Run {
   const Program& program() const { return program_; }
   const Operators& operators() const { return *operators_; }
   const std::vector<Vector>& coefficients() const { return state_.now; }
+  /// A copy of the fields, to be dressed.
+  CoatFields fields() const;
 
   /// Everything that changes, as bytes (little-endian doubles): a run of the same program that restores it continues
   /// with the same bits.

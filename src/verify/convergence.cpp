@@ -111,17 +111,18 @@ std::vector<Figure> orders(const std::string& surface, const TriangleMesh& coars
   const Errors a = solve_and_measure(coarse, exact), b = solve_and_measure(fine, exact);
   const double refinement =
       std::log(static_cast<double>(fine.points.size()) / static_cast<double>(coarse.points.size())) / 2;
-  return {at_least("order in L2 of -div grad u + u = f on the " + surface, std::log(a.l2 / b.l2) / refinement, l2_bound),
-          at_least("order in H1 of -div grad u + u = f on the " + surface, std::log(a.h1 / b.h1) / refinement, h1_bound)};
+  return {
+      at_least("order in L2 of -div grad u + u = f on the " + surface, std::log(a.l2 / b.l2) / refinement, l2_bound),
+      at_least("order in H1 of -div grad u + u = f on the " + surface, std::log(a.h1 / b.h1) / refinement, h1_bound)};
 }
 
 }  // namespace
 
 std::vector<Figure> verify_convergence() {
-  std::vector<Figure> figures =
-      orders("torus", builtin_shape("builtin:torus?n=2048"), builtin_shape("builtin:torus?n=8192"), on_torus(), 3.9, 2.9);
-  const std::vector<Figure> sphere =
-      orders("sphere", builtin_shape("builtin:sphere?n=2562"), builtin_shape("builtin:sphere?n=10242"), on_sphere(), 2.4, 1.45);
+  std::vector<Figure> figures = orders("torus", builtin_shape("builtin:torus?n=2048"),
+                                       builtin_shape("builtin:torus?n=8192"), on_torus(), 3.9, 2.9);
+  const std::vector<Figure> sphere = orders("sphere", builtin_shape("builtin:sphere?n=2562"),
+                                            builtin_shape("builtin:sphere?n=10242"), on_sphere(), 2.4, 1.45);
   figures.insert(figures.end(), sphere.begin(), sphere.end());
   return figures;
 }
