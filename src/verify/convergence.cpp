@@ -40,15 +40,15 @@ ExactSolution on_sphere() {
   return s;
 }
 
-constexpr double torus_major = 1, torus_minor = 0.4;  // of the built-in torus, whose axis is y
+constexpr double torus_major = 1, torus_minor = 0.4;  // of the built-in torus, whose axis is z
 
 struct TorusAngles {
   double theta, phi;  ///< around the tube, around the axis
 };
 
 TorusAngles torus_angles(const Point& p) {
-  const double rho = std::hypot(p[0], p[2]);
-  return {std::atan2(p[1], rho - torus_major), std::atan2(p[2], p[0])};
+  const double rho = std::hypot(p[0], p[1]);
+  return {std::atan2(p[2], rho - torus_major), std::atan2(p[1], p[0])};
 }
 
 /// u = sin(2 phi) cos(theta) + sin(theta) on the torus.
@@ -74,8 +74,8 @@ ExactSolution on_torus() {
     const double along_theta = (-std::sin(2 * phi) * std::sin(theta) + std::cos(theta)) / torus_minor;
     const double along_phi = 2 * std::cos(2 * phi) * std::cos(theta) / radius;
     return Point{-along_theta * std::sin(theta) * std::cos(phi) - along_phi * std::sin(phi),
-                 along_theta * std::cos(theta),
-                 -along_theta * std::sin(theta) * std::sin(phi) + along_phi * std::cos(phi)};
+                 -along_theta * std::sin(theta) * std::sin(phi) + along_phi * std::cos(phi),
+                 along_theta * std::cos(theta)};
   };
   return s;
 }
@@ -111,17 +111,18 @@ std::vector<Figure> orders(const std::string& surface, const TriangleMesh& coars
   const Errors a = solve_and_measure(coarse, exact), b = solve_and_measure(fine, exact);
   const double refinement =
       std::log(static_cast<double>(fine.points.size()) / static_cast<double>(coarse.points.size())) / 2;
-  return {at_least("order in L2 of -div grad u + u = f on the " + surface, std::log(a.l2 / b.l2) / refinement, l2_bound),
-          at_least("order in H1 of -div grad u + u = f on the " + surface, std::log(a.h1 / b.h1) / refinement, h1_bound)};
+  return {
+      at_least("order in L2 of -div grad u + u = f on the " + surface, std::log(a.l2 / b.l2) / refinement, l2_bound),
+      at_least("order in H1 of -div grad u + u = f on the " + surface, std::log(a.h1 / b.h1) / refinement, h1_bound)};
 }
 
 }  // namespace
 
 std::vector<Figure> verify_convergence() {
-  std::vector<Figure> figures =
-      orders("torus", builtin_shape("builtin:torus?n=2048"), builtin_shape("builtin:torus?n=8192"), on_torus(), 3.9, 2.9);
-  const std::vector<Figure> sphere =
-      orders("sphere", builtin_shape("builtin:sphere?n=2562"), builtin_shape("builtin:sphere?n=10242"), on_sphere(), 2.4, 1.45);
+  std::vector<Figure> figures = orders("torus", builtin_shape("builtin:torus?n=2048"),
+                                       builtin_shape("builtin:torus?n=8192"), on_torus(), 3.9, 2.9);
+  const std::vector<Figure> sphere = orders("sphere", builtin_shape("builtin:sphere?n=2562"),
+                                            builtin_shape("builtin:sphere?n=10242"), on_sphere(), 2.4, 1.45);
   figures.insert(figures.end(), sphere.begin(), sphere.end());
   return figures;
 }

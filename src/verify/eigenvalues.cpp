@@ -15,9 +15,22 @@ constexpr int harmonics = 16;  // of degree 0 to 3
 /// A basis of the harmonic polynomials of degree at most 3.
 std::array<double, harmonics> solid_harmonics(const Point& p) {
   const auto [x, y, z] = p;
-  return {1, x, y, z, x * y, y * z, z * x, x * x - y * y, 2 * z * z - x * x - y * y,
-          x * y * z, z * (x * x - y * y), x * (x * x - 3 * y * y), y * (3 * x * x - y * y),
-          x * (4 * z * z - x * x - y * y), y * (4 * z * z - x * x - y * y), z * (2 * z * z - 3 * x * x - 3 * y * y)};
+  return {1,
+          x,
+          y,
+          z,
+          x * y,
+          y * z,
+          z * x,
+          x * x - y * y,
+          2 * z * z - x * x - y * y,
+          x * y * z,
+          z * (x * x - y * y),
+          x * (x * x - 3 * y * y),
+          y * (3 * x * x - y * y),
+          x * (4 * z * z - x * x - y * y),
+          y * (4 * z * z - x * x - y * y),
+          z * (2 * z * z - 3 * x * x - 3 * y * y)};
 }
 
 /// The smallest 16 eigenvalues of K x = lambda M x by inverse iteration of a subspace that starts from the harmonics.
@@ -68,8 +81,10 @@ std::vector<Figure> verify_eigenvalues() {
   std::vector<Figure> figures;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string degree = std::to_string(i + 1);
-    figures.push_back(at_most("relative error of the sphere's eigenvalue l = " + degree + ", 2562 vertices", loop[i], 4e-5));
-    figures.push_back(at_least("the same: error of linear elements over that of Loop elements", linear[i] / loop[i], 100));
+    figures.push_back(
+        at_most("relative error of the sphere's eigenvalue l = " + degree + ", 2562 vertices", loop[i], 4e-5));
+    figures.push_back(
+        at_least("the same: error of linear elements over that of Loop elements", linear[i] / loop[i], 100));
   }
   return figures;
 }

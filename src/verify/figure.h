@@ -7,7 +7,7 @@
 namespace pelage {
 
 struct Figure {
-  std::string what;    ///< what was measured
+  std::string what;  ///< what was measured
   double value = 0;
   double bound = 0;
   bool at_least = false;  ///< whether the value must be at least the bound (else at most)

@@ -51,8 +51,9 @@ std::vector<Figure> check(const std::string& name, const std::string& spec) {
 
 std::vector<Figure> verify_matrices() {
   std::vector<Figure> figures;
-  for (auto [name, spec] : {std::pair{"sphere", "builtin:sphere?n=642"}, std::pair{"plane with boundary", "builtin:plane?n=400"},
-                            std::pair{"animal", "builtin:animal?n=3000"}}) {
+  for (auto [name, spec] :
+       {std::pair{"sphere", "builtin:sphere?n=642"}, std::pair{"plane with boundary", "builtin:plane?n=400"},
+        std::pair{"animal", "builtin:animal?n=3000"}}) {
     const auto part = check(name, spec);
     figures.insert(figures.end(), part.begin(), part.end());
   }

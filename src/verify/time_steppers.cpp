@@ -34,8 +34,8 @@ Reaction fitzhugh_nagumo() {
 std::vector<Vector> integrate(const Problem& p, const std::string& stepper_name, int steps) {
   const bool paper = stepper_name == "paper";
   const Assembler assembler(p.discretisation);
-  const Sampling sampling = paper ? quadrature_sampling(p.discretisation, p.control)
-                                  : vertex_sampling(p.discretisation, p.control, p.mass);
+  const Sampling sampling =
+      paper ? quadrature_sampling(p.discretisation, p.control) : vertex_sampling(p.discretisation, p.control, p.mass);
   const SparseMatrix mass = paper ? p.mass : sampled_mass(sampling, p.mass.pattern);
   System system;
   system.mass = &mass;
@@ -54,8 +54,7 @@ std::vector<Vector> integrate(const Problem& p, const std::string& stepper_name,
   }
   state.now = {u, v};
   const auto stepper = make_stepper(stepper_name);
-  for (int k = 0; k < steps; ++k)
-    stepper->step(system, state, {.dt = 1.0 / steps, .solver_tolerance = 1e-13});
+  for (int k = 0; k < steps; ++k) stepper->step(system, state, {.dt = 1.0 / steps, .solver_tolerance = 1e-13});
   return state.now;
 }
 
@@ -76,8 +75,9 @@ std::vector<Figure> verify_time_steppers() {
   const Problem p = make_problem(builtin_shape("builtin:sphere?n=642"), "loop", false);
   std::vector<Figure> figures;
   for (auto [name, order] : {std::pair{"paper", 1}, std::pair{"sbdf2", 2}, std::pair{"explicit", 1}})
-    figures.push_back(at_most(std::string("distance of the order in time of ") + name + " from " + std::to_string(order),
-                              std::abs(observed_order(p, name, 32) - order), 0.1));
+    figures.push_back(
+        at_most(std::string("distance of the order in time of ") + name + " from " + std::to_string(order),
+                std::abs(observed_order(p, name, 32) - order), 0.1));
   return figures;
 }
 
