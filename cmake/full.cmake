@@ -23,7 +23,7 @@ if(PELAGE_WITH_CHOLMOD)
 endif()
 
 # --- the library: core + files + pictures + catalogue ---------------------------------------------------
-file(GLOB full_sources CONFIGURE_DEPENDS src/recipe/*.cpp src/io/*.cpp src/look/*.cpp src/catalog/*.cpp)
+file(GLOB full_sources CONFIGURE_DEPENDS src/recipe/*.cpp src/io/*.cpp src/look/*.cpp src/verify/*.cpp src/catalog/*.cpp)
 
 # models/*.toml and recipes/*.toml are compiled in, so that the program needs no data directory.
 file(GLOB data_files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
