@@ -42,8 +42,8 @@ target_include_directories(pelage SYSTEM PRIVATE ${STB_INCLUDE_DIR} ${TINYGLTF_I
 target_link_libraries(pelage
   PUBLIC pelage_core
   PRIVATE $<BUILD_INTERFACE:Eigen3::Eigen> $<BUILD_INTERFACE:pelage_flags>
-          $<BUILD_INTERFACE:tomlplusplus::tomlplusplus> $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>
-          embree ${TINYGLTF_LIBRARY})
+          $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> tomlplusplus::tomlplusplus embree
+          $<BUILD_INTERFACE:${TINYGLTF_LIBRARY}> $<INSTALL_INTERFACE:tinygltf>)
 
 # --- the command line -----------------------------------------------------------------------------------
 file(GLOB cli_sources CONFIGURE_DEPENDS apps/cli/*.cpp)

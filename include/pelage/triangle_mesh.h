@@ -7,9 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "pelage/point.h"
+
 namespace pelage {
 
-using Point = std::array<double, 3>;
 using Triangle = std::array<std::int32_t, 3>;  ///< three vertex numbers, counter-clockwise from outside
 
 /// Where the values of an attribute sit.

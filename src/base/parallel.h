@@ -50,6 +50,9 @@ T ordered_sum(std::size_t n, T zero, Partial&& partial, std::size_t chunk = defa
   return sum;
 }
 
+/// Number of threads that loops may use. Results must not depend on it.
+int concurrency();
+
 /// Calls body() so that all parallel work inside runs on one thread: for libraries whose results depend on the
 /// number of threads.
 template <class Body>

@@ -55,4 +55,9 @@ std::string join_names(const std::vector<std::string>& names) {
   return text;
 }
 
+std::string unknown_name(const std::string& kind, const std::string& word, const std::vector<std::string>& known) {
+  const std::string hint = did_you_mean(word, known);
+  return "unknown " + kind + " \"" + word + "\"; " + (hint.empty() ? "" : hint + " ") + "known: " + join_names(known);
+}
+
 }  // namespace pelage

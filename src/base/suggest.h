@@ -18,4 +18,7 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
 /// "a, b, c": for messages that list the known names.
 std::string join_names(const std::vector<std::string>& names);
 
+/// unknown KIND "word"; did you mean "..."? Known: a, b, c
+std::string unknown_name(const std::string& kind, const std::string& word, const std::vector<std::string>& known);
+
 }  // namespace pelage

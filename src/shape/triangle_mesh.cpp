@@ -10,9 +10,7 @@ const Attribute* TriangleMesh::find(std::string_view name) const {
   return it == attributes.end() ? nullptr : &*it;
 }
 
-Attribute* TriangleMesh::find(std::string_view name) {
-  return const_cast<Attribute*>(std::as_const(*this).find(name));
-}
+Attribute* TriangleMesh::find(std::string_view name) { return const_cast<Attribute*>(std::as_const(*this).find(name)); }
 
 void TriangleMesh::set(Attribute attribute) {
   if (Attribute* old = find(attribute.name))

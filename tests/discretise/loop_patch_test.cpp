@@ -70,7 +70,8 @@ std::vector<Neighbourhood> all_cases(LoopPatches& patches) {
   tetrahedron.patch_class = patches.classify(tetrahedron.topology, 0, tetrahedron.points);
   cases.push_back(tetrahedron);
   Neighbourhood cap;  // one valence-3 corner in a larger mesh
-  cap.topology = make_topology(7, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 4, 2}, {2, 5, 3}, {3, 6, 1}, {1, 6, 4}, {2, 4, 5}, {3, 5, 6}});
+  cap.topology = make_topology(
+      7, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 4, 2}, {2, 5, 3}, {3, 6, 1}, {1, 6, 4}, {2, 4, 5}, {3, 5, 6}});
   cap.patch_class = patches.classify(cap.topology, 0, cap.points);
   cases.push_back(cap);
   return cases;
@@ -106,7 +107,9 @@ TEST(LoopPatch, DerivativesMatchDifferences) {
       const PatchJet jet = at(0, 0);
       // Fourth-order central differences of the values (first) and of the first derivatives (second).
       auto difference = [&](int row, double dv, double dw) -> Eigen::RowVectorXd {
-        return (8 * (at(dv, dw).row(row) - at(-dv, -dw).row(row)) - (at(2 * dv, 2 * dw).row(row) - at(-2 * dv, -2 * dw).row(row))) / (12 * h);
+        return (8 * (at(dv, dw).row(row) - at(-dv, -dw).row(row)) -
+                (at(2 * dv, 2 * dw).row(row) - at(-2 * dv, -2 * dw).row(row))) /
+               (12 * h);
       };
       EXPECT_LT((difference(0, 1, 0) - jet.row(1)).cwiseAbs().maxCoeff(), 1e-6);
       EXPECT_LT((difference(0, 0, 1) - jet.row(2)).cwiseAbs().maxCoeff(), 1e-6);
@@ -131,7 +134,8 @@ TEST(LoopPatch, SubdividedMeshHasTheSameLimitSurface) {
       const Index c = patches.classify(t, face, points);
       const PatchJet jet = patches.evaluate(c, v, w);
       double sum = 0;
-      for (std::size_t i = 0; i < points.size(); ++i) sum += jet(0, static_cast<Eigen::Index>(i)) * values[static_cast<std::size_t>(points[i])];
+      for (std::size_t i = 0; i < points.size(); ++i)
+        sum += jet(0, static_cast<Eigen::Index>(i)) * values[static_cast<std::size_t>(points[i])];
       return sum;
     };
     const double v = 0.21, w = 0.34;
@@ -150,12 +154,14 @@ TEST(LoopPatch, LimitMasksAgreeWithEvaluation) {
     std::mt19937 random(5);
     for (Point& p : control)
       for (double& x : p) x = std::uniform_real_distribution<double>(-1, 1)(random);
-    const auto limit = combine(masks.position, control), t1 = combine(masks.tangent1, control), t2 = combine(masks.tangent2, control);
+    const auto limit = combine(masks.position, control), t1 = combine(masks.tangent1, control),
+               t2 = combine(masks.tangent2, control);
     auto evaluate = [&](double v, double w) {
       const PatchJet jet = patches.evaluate(n.patch_class, v, w);
       Eigen::Matrix3d rows = Eigen::Matrix3d::Zero();
       for (std::size_t i = 0; i < n.points.size(); ++i)
-        rows += jet.topRows(3).col(static_cast<Eigen::Index>(i)) * Eigen::RowVector3d(control[static_cast<std::size_t>(n.points[i])].data());
+        rows += jet.topRows(3).col(static_cast<Eigen::Index>(i)) *
+                Eigen::RowVector3d(control[static_cast<std::size_t>(n.points[i])].data());
       return rows;
     };
     const Eigen::Matrix3d corner = evaluate(0, 0);
@@ -170,7 +176,8 @@ TEST(LoopPatch, LimitMasksAgreeWithEvaluation) {
     const double distance = ring.size() < (boundary ? 4U : 6U) ? 0x1p-14 : 0x1p-38;
     const Eigen::Matrix3d near = evaluate(distance, distance);
     const Eigen::RowVector3d normal = near.row(1).cross(near.row(2)).normalized();
-    const Eigen::RowVector3d expected = Eigen::RowVector3d(t1[0].data()).cross(Eigen::RowVector3d(t2[0].data())).normalized();
+    const Eigen::RowVector3d expected =
+        Eigen::RowVector3d(t1[0].data()).cross(Eigen::RowVector3d(t2[0].data())).normalized();
     EXPECT_LT((normal - expected).norm(), 1e-2) << "valence " << ring.size() << ", boundary " << boundary;
   }
 }

@@ -1,0 +1,52 @@
+# Thin verbs over the CMake presets. On a bare Debian 12 run `sh tools/setup.sh` once: it installs make, too.
+.DEFAULT_GOAL := build
+.PHONY: setup build demo test bench test-clients format format-check tidy asan clean
+
+JOBS ?= $(shell nproc)
+CMAKE_BUILD := cmake --build --parallel $(JOBS) --preset
+CXX_FILES = $(shell git ls-files '*.h' '*.cpp')
+
+setup:  ## install what is missing, through apt
+	@sh tools/setup.sh
+
+build: setup  ## the release: build/release/bin/pelage
+	@cmake --preset release -DPELAGE_TESTS=OFF -DPELAGE_BENCHMARKS=OFF
+	@$(CMAKE_BUILD) release
+
+demo: build  ## grow a coat on the built-in animal: out/demo.glb, out/demo.ply, out/demo.png
+	@mkdir -p out
+	build/release/bin/pelage grow --recipe demo -o out/demo.glb,out/demo.ply --picture out/demo.png
+
+test: setup  ## build everything and run every test
+	@cmake --preset release -DPELAGE_TESTS=ON -DPELAGE_BENCHMARKS=OFF
+	@$(CMAKE_BUILD) release
+	@ctest --preset release --parallel $(JOBS)
+
+bench: setup  ## measure; results in bench/results
+	@cmake --preset release -DPELAGE_TESTS=OFF -DPELAGE_BENCHMARKS=ON
+	@$(CMAKE_BUILD) release
+	@$(CMAKE_BUILD) release --target run_benchmarks
+
+test-clients: demo  ## install Blender, ParaView and others, and open the demo's files in them
+	@bash tests/clients/run.sh out/demo.glb out/demo.ply
+
+asan: setup  ## every test under the address and undefined-behaviour sanitizers
+	@cmake --preset asan
+	@$(CMAKE_BUILD) asan
+	@ctest --preset asan --parallel $(JOBS)
+
+format:  ## bring all sources into the house's format
+	@clang-format -i $(CXX_FILES)
+
+format-check:
+	@clang-format --dry-run -Werror $(CXX_FILES)
+
+# g++ knows warning options that clang does not.
+tidy:  ## static analysis of src/ and apps/
+	@sh tools/setup.sh clang-tidy
+	@cmake --preset debug -DPELAGE_TESTS=OFF
+	@git ls-files 'src/*.cpp' 'apps/*.cpp' | xargs -P $(JOBS) -n 4 clang-tidy -p build/debug --quiet \
+		--extra-arg=-Wno-unknown-warning-option
+
+clean:
+	@rm -rf build out

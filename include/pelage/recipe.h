@@ -1,0 +1,72 @@
+#pragma once
+// A recipe is data only: what to grow, how large, how to colour it. Names become components in resolve().
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pelage/error.h"
+
+namespace pelage {
+
+/// A name or number with the place where the user gave it.
+template <class T>
+struct Given {
+  T value{};
+  Location where;
+};
+
+/// A length: a fraction of the bounding box diagonal of the shape, or world units.
+struct Length {
+  double value = 0;
+  bool relative = true;
+};
+
+/// "0.04" is a fraction of the diagonal; "4mm", "2cm", "0.1m", "3in", "1.5u" are world units, with metres as the unit
+/// of the file for the metric ones ("u": the file's own unit, whatever it is). Error(Fault::usage) otherwise.
+Length parse_length(const std::string& text, const Location& where);
+
+/// One run of a model to its stop.
+struct Stage {
+  Given<std::string> model{"turing", {}};  ///< built-in name, "name:variant", or path of a .toml file
+  struct Setting {
+    std::string name;
+    double value = 0;
+    Location where;
+  };
+  std::vector<Setting> parameters;        ///< of the model, instead of its defaults
+  std::optional<Given<Length>> size;      ///< wanted wavelength of the pattern; default: 4 % of the diagonal
+  Given<std::string> method{"loop", {}};  ///< discretisation
+  Given<std::string> stepper{"sbdf2", {}};
+  std::optional<double> step;         ///< fixed step [model time]; default: adaptive, or the stepper's safe step
+  std::optional<double> until;        ///< stop at this model time; default: the model's suggestion
+  std::optional<std::int64_t> steps;  ///< stop after so many steps
+  std::optional<double>
+      stationary;  ///< stop when the pattern changes by less than this fraction per unit of time; 0: never
+  std::uint64_t seed = 1;
+  bool interpolate = false;  ///< the limit surface passes through the vertices of the shape
+};
+
+/// How fields become colours and geometry.
+struct Look {
+  std::optional<Given<std::string>> species;  ///< which one is shown; default: the last
+  Given<std::string> ramp{"tawny", {}};
+  bool invert = false;        ///< exchange the ends of the ramp
+  bool keep_shape = false;    ///< the input's flat triangles instead of the limit surface
+  std::optional<int> detail;  ///< extra splits of every triangle into four; default: as the pattern needs
+};
+
+struct Recipe {
+  std::string name;
+  std::string summary;
+  std::string shape;  ///< used when the command names none
+  Stage stage;
+  Look look;
+};
+
+/// Reads a recipe from TOML text; `file` is the name for messages. Error(Fault::usage) with file and line for anything
+/// unknown or misspelt.
+Recipe parse_recipe(const std::string& text, const std::string& file);
+
+}  // namespace pelage

@@ -1,0 +1,152 @@
+#include "catalog/models.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "base/suggest.h"
+#include "catalog/embedded.h"
+#include "recipe/document.h"
+
+namespace pelage {
+
+namespace {
+
+/// A formula may be written as a number.
+Formula formula(const Value& value) {
+  if (value.kind() != Value::Kind::number) return {value.string(), value.text_where()};
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value.number()).ptr;
+  return {{buffer, end}, value.where()};
+}
+
+std::optional<Formula> optional_formula(const Value& table, const std::string& key) {
+  const Value* value = table.find(key);
+  return value ? std::optional(formula(*value)) : std::nullopt;
+}
+
+SpeciesSource species(const std::string& name, const Value& table) {
+  return {.name = name,
+          .where = table.where(),
+          .diffusion = optional_formula(table, "diffusion"),
+          .rate = optional_formula(table, "rate"),
+          .c0 = optional_formula(table, "C0"),
+          .c1 = optional_formula(table, "C1"),
+          .c2 = optional_formula(table, "C2"),
+          .c3 = optional_formula(table, "C3"),
+          .initial = optional_formula(table, "initial"),
+          .lower = optional_formula(table, "min"),
+          .upper = optional_formula(table, "max")};
+}
+
+ParameterSource parameter(const std::string& name, const Value& value) {
+  ParameterSource result;
+  result.name = name;
+  result.where = value.where();
+  if (value.kind() == Value::Kind::number) {
+    result.value = value.number();
+    return result;
+  }
+  result.value = value.at("value").number();
+  result.min = value.number_or("min", result.min);
+  result.max = value.number_or("max", result.max);
+  result.unit = value.string_or("unit", "");
+  result.help = value.string_or("help", "");
+  return result;
+}
+
+Suggestions suggestions(const Value& table) {
+  const Value* suggested = table.find("suggested");
+  if (!suggested) return {};
+  return {suggested->optional_number("step"), suggested->optional_number("end"),
+          suggested->optional_number("tolerance")};
+}
+
+std::optional<double> wavelength(const Value& table) {
+  const auto value = table.optional_number("wavelength");
+  if (value && !(*value > 0))
+    throw Error(Fault::usage, "a wavelength must be greater than 0", table.at("wavelength").where());
+  return value;
+}
+
+VariantSource variant(const std::string& name, const Value& table) {
+  VariantSource result{.name = name,
+                       .title = table.string_or("title", ""),
+                       .parameters = {},
+                       .wavelength = wavelength(table),
+                       .suggestions = suggestions(table),
+                       .where = table.where()};
+  if (const Value* parameters = table.find("parameters"))
+    for (const auto& [key, value] : parameters->entries()) result.parameters[key] = {value->number(), value->where()};
+  return result;
+}
+
+/// fill(name, value) for every entry of a table of tables, if it is there.
+template <class Fill>
+void for_entries(const Value& document, const std::string& key, Fill&& fill) {
+  if (const Value* table = document.find(key))
+    for (const auto& [name, value] : table->entries()) fill(name, *value);
+}
+
+ModelSource model(const Value& document) {
+  ModelSource result;
+  result.where = document.where();
+  result.name = document.at("name").string();
+  result.title = document.string_or("title", result.name);
+  result.cite = document.string_or("cite", "");
+  result.summary = document.string_or("summary", "");
+  result.wavelength = wavelength(document);
+  result.suggestions = suggestions(document);
+  for_entries(document, "parameters",
+              [&](auto& name, auto& value) { result.parameters.push_back(parameter(name, value)); });
+  for_entries(document, "definitions", [&](auto& name, auto& value) {
+    result.definitions.push_back({name, formula(value)});
+  });
+  for_entries(document, "species", [&](auto& name, auto& value) { result.species.push_back(species(name, value)); });
+  for_entries(document, "variants", [&](auto& name, auto& value) { result.variants.push_back(variant(name, value)); });
+  document.require_all_read();
+  return result;
+}
+
+std::vector<ModelEntry> read_embedded() {
+  std::vector<ModelEntry> list;
+  for (const EmbeddedFile& file : embedded_files()) {
+    if (!file.path.starts_with("models/")) continue;
+    const ModelSource source = parse_model(file.text, std::string(file.path));
+    list.push_back({source.name, source});
+    for (const VariantSource& candidate : source.variants)
+      list.push_back({source.name + ":" + candidate.name, with_variant(source, candidate.name)});
+  }
+  return list;
+}
+
+ModelSource load_built_in(const std::string& name) {
+  std::vector<std::string> names;
+  for (const ModelEntry& entry : model_list()) {
+    if (entry.name == name) return entry.source;
+    names.push_back(entry.name);
+  }
+  const std::string hint = did_you_mean(name, names);
+  throw Error(Fault::usage,
+              "unknown model \"" + name + "\"; " +
+                  (hint.empty() ? "there are " + join_names(names) + ", or give the path of a .toml file" : hint));
+}
+
+}  // namespace
+
+ModelSource parse_model(std::string_view text, const std::string& file) { return model(parse_document(text, file)); }
+
+const std::vector<ModelEntry>& model_list() {
+  static const std::vector<ModelEntry> list = read_embedded();
+  return list;
+}
+
+ModelSource load_model(const std::string& name_or_path) {
+  const std::size_t extension = name_or_path.rfind(".toml");
+  if (extension == std::string::npos) return load_built_in(name_or_path);
+  const std::size_t end = extension + 5;
+  if (end == name_or_path.size()) return model(read_document(name_or_path));
+  if (name_or_path[end] != ':') return load_built_in(name_or_path);
+  return with_variant(model(read_document(name_or_path.substr(0, end))), name_or_path.substr(end + 1));
+}
+
+}  // namespace pelage

@@ -1,0 +1,28 @@
+#pragma once
+// The reaction models: those compiled in from models/*.toml, and files of the user.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "react/model.h"
+
+namespace pelage {
+
+struct ModelEntry {
+  std::string name;    ///< what load_model takes: "turing", or "turing:production" for a variant
+  ModelSource source;  ///< with the variant's values
+};
+
+/// Every built-in model and variant, sorted by name, each model before its variants.
+const std::vector<ModelEntry>& model_list();
+
+/// The source of a model: the name of a built-in one or the path of a file ending in .toml, with ":VARIANT" appended
+/// for a variant. Error(usage) for an unknown name, Error(input) for a file that cannot be read, Error(usage) with
+/// file, line and column for a fault in it.
+ModelSource load_model(const std::string& name_or_path);
+
+/// The source that a text describes; `file` is the name for messages.
+ModelSource parse_model(std::string_view text, const std::string& file);
+
+}  // namespace pelage

@@ -1,0 +1,19 @@
+#pragma once
+// Joins names to components: every unknown name, unit or parameter is an error here, before any work.
+
+#include "pelage/recipe.h"
+#include "run/program.h"
+
+namespace pelage {
+
+/// Default of Stage::size, as a fraction of the diagonal.
+inline constexpr double default_size = 0.04;
+
+/// Error(Fault::usage), located in the recipe, for anything unknown; Error(Fault::input) for a shape without extent.
+Program resolve(const Recipe& recipe, TriangleMesh shape);
+
+/// The built-in recipe of that name, or the one in the file when the name ends in .toml.
+Recipe load_recipe(const std::string& name_or_path);
+std::vector<std::string> recipe_names();
+
+}  // namespace pelage

@@ -1,0 +1,332 @@
+#include "discretise/assembly.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+
+namespace pelage {
+
+/// Elements that contain each basis function, with its local number there.
+struct FunctionElements {
+  std::vector<std::int64_t> start;
+  std::vector<std::pair<Index, Index>> element;  // element, local number; elements ascending
+};
+
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+FunctionElements function_elements(const Discretisation& d) {
+  FunctionElements result;
+  result.start.assign(at(d.unknowns) + 1, 0);
+  for (Index f : d.function) ++result.start[at(f) + 1];
+  for (std::size_t i = 1; i < result.start.size(); ++i) result.start[i] += result.start[i - 1];
+  result.element.resize(d.function.size());
+  std::vector<std::int64_t> cursor(result.start.begin(), result.start.end() - 1);
+  for (std::size_t e = 0; e < d.elements(); ++e)
+    for (std::int64_t k = d.first_function[e]; k < d.first_function[e + 1]; ++k) {
+      const Index f = d.function[static_cast<std::size_t>(k)];
+      result.element[static_cast<std::size_t>(cursor[at(f)]++)] = {static_cast<Index>(e),
+                                                                   static_cast<Index>(k - d.first_function[e])};
+    }
+  return result;
+}
+
+/// Tangents x_v, x_w and the metric at one quadrature point.
+struct Metric {
+  Eigen::Vector3d xv = Eigen::Vector3d::Zero(), xw = Eigen::Vector3d::Zero();
+  double g11 = 0, g12 = 0, g22 = 0;
+  double area = 0;  ///< area element, |x_v x x_w|
+};
+
+Metric metric(const ElementClass& c, Index q, const Index* function, const std::vector<Point>& control) {
+  Metric m;
+  for (Index i = 0; i < c.functions(); ++i) {
+    const Point& p = control[at(function[i])];
+    const double v = c.dv(q, i), w = c.dw(q, i);
+    for (int k = 0; k < 3; ++k) {
+      m.xv[k] += v * p[static_cast<std::size_t>(k)];
+      m.xw[k] += w * p[static_cast<std::size_t>(k)];
+    }
+  }
+  m.g11 = m.xv.dot(m.xv);
+  m.g12 = m.xv.dot(m.xw);
+  m.g22 = m.xw.dot(m.xw);
+  m.area = std::sqrt(std::max(0.0, m.g11 * m.g22 - m.g12 * m.g12));
+  return m;
+}
+
+/// A symmetric 2x2 matrix in the parameters (v, w).
+struct Form {
+  double vv, vw, ww;
+};
+
+/// weight * area * G^-1: the gradient's scalar product. A point where the surface degenerates contributes nothing.
+Form gradient_form(const Metric& m, double weight) {
+  if (!(m.area > 0)) return {0, 0, 0};
+  const double scale = weight / m.area;  // weight * area / det G
+  return {scale * m.g22, -scale * m.g12, scale * m.g11};
+}
+
+/// weight * area * G^-1 [x_v x_w]' T [x_v x_w] G^-1.
+Form gradient_form(const Metric& m, double weight, const Tensor& t) {
+  if (!(m.area > 0)) return {0, 0, 0};
+  Eigen::Matrix3d tensor;
+  tensor << t[0], t[1], t[2], t[1], t[3], t[4], t[2], t[4], t[5];
+  const Form inverse = gradient_form(m, 1 / m.area);                // G^-1
+  const Eigen::Vector3d v = inverse.vv * m.xv + inverse.vw * m.xw;  // dual tangents
+  const Eigen::Vector3d w = inverse.vw * m.xv + inverse.ww * m.xw;
+  const double scale = weight * m.area;
+  return {scale * v.dot(tensor * v), scale * v.dot(tensor * w), scale * w.dot(tensor * w)};
+}
+
+/// out(i, j) += sum over q of left(q, i) right(q, j). `Functions` and `Points` are compile-time sizes for the unrolled
+/// kernel of regular Loop elements, or 0 for the plain one; both give the same bits.
+template <int Functions, int Points>
+void add_product(const double* left, const double* right, int functions, int points, double* out) {
+  const int n = Functions > 0 ? Functions : functions;
+  const int count = Points > 0 ? Points : points;
+  for (int i = 0; i < n; ++i) {
+    double* row = out + i * n;
+    for (int q = 0; q < count; ++q) {
+      const double factor = left[q * n + i];
+      for (int j = 0; j < n; ++j) row[j] += factor * right[q * n + j];
+    }
+  }
+}
+
+void add_product(const RowMatrix& left, const RowMatrix& right, double* out) {
+  const auto n = static_cast<int>(left.cols()), count = static_cast<int>(left.rows());
+  if (n == 12 && count == 6)
+    add_product<12, 6>(left.data(), right.data(), n, count, out);
+  else
+    add_product<0, 0>(left.data(), right.data(), n, count, out);
+}
+
+/// Work space of one thread.
+struct Scratch {
+  RowMatrix first, second;
+};
+
+/// out = B' W B.
+void mass_matrix(const ElementClass& c, const Vector& scale, Scratch& scratch, double* out) {
+  scratch.first = scale.asDiagonal() * c.value;
+  add_product(c.value, scratch.first, out);
+}
+
+/// out = [G_v G_w]' F [G_v G_w].
+void stiffness_matrix(const ElementClass& c, const std::vector<Form>& form, Scratch& scratch, double* out) {
+  scratch.first.resizeLike(c.dv);
+  scratch.second.resizeLike(c.dv);
+  for (Eigen::Index q = 0; q < c.dv.rows(); ++q) {
+    const Form& f = form[static_cast<std::size_t>(q)];
+    scratch.first.row(q) = f.vv * c.dv.row(q) + f.vw * c.dw.row(q);
+    scratch.second.row(q) = f.vw * c.dv.row(q) + f.ww * c.dw.row(q);
+  }
+  add_product(c.dv, scratch.first, out);
+  add_product(c.dw, scratch.second, out);
+}
+
+}  // namespace
+
+void Assembler::build_rows(Index begin, Index end, const FunctionElements& incident, SparsePattern& part) {
+  std::vector<Index> rank(at(d_.unknowns), -1);  // of a column in the current row
+  std::vector<Index> columns;
+  for (Index row = begin; row < end; ++row) {
+    columns.clear();
+    const auto first = incident.start[at(row)], last = incident.start[at(row) + 1];
+    auto for_each_column = [&](auto visit) {
+      for (auto k = first; k < last; ++k) {
+        const auto [e, local] = incident.element[static_cast<std::size_t>(k)];
+        for (auto c = d_.first_function[at(e)]; c < d_.first_function[at(e) + 1]; ++c)
+          visit(d_.function[static_cast<std::size_t>(c)], at(e), local, c - d_.first_function[at(e)]);
+      }
+    };
+    for_each_column([&](Index column, std::size_t, Index, std::int64_t) {
+      if (rank[at(column)] == -1) columns.push_back(column);
+      rank[at(column)] = 0;
+    });
+    std::sort(columns.begin(), columns.end());
+    for (std::size_t k = 0; k < columns.size(); ++k) rank[at(columns[k])] = static_cast<Index>(k);
+    for_each_column([&](Index column, std::size_t e, Index local, std::int64_t other) {
+      const std::int64_t n = d_.first_function[e + 1] - d_.first_function[e];
+      offset_[static_cast<std::size_t>(matrix_start_[e] + local * n + other)] =
+          static_cast<std::uint16_t>(rank[at(column)]);
+    });
+    for (Index column : columns) rank[at(column)] = -1;
+    part.column.insert(part.column.end(), columns.begin(), columns.end());
+    part.start.push_back(static_cast<std::int64_t>(part.column.size()));
+  }
+}
+
+Assembler::Assembler(const Discretisation& discretisation) : d_(discretisation) {
+  const FunctionElements incident = function_elements(d_);
+  matrix_start_.push_back(0);
+  for (std::size_t e = 0; e < d_.elements(); ++e) {
+    const std::int64_t n = d_.first_function[e + 1] - d_.first_function[e];
+    matrix_start_.push_back(matrix_start_.back() + n * n);
+  }
+  offset_.resize(static_cast<std::size_t>(matrix_start_.back()));
+  const auto parts_count = static_cast<std::size_t>(concurrency());
+  std::vector<SparsePattern> parts(parts_count);
+  const auto rows_per_part = static_cast<Index>((at(d_.unknowns) + parts_count - 1) / parts_count);
+  parallel_chunks(parts_count, [&](std::size_t p) {
+    const Index begin = std::min(d_.unknowns, static_cast<Index>(p) * rows_per_part);
+    build_rows(begin, std::min(d_.unknowns, begin + rows_per_part), incident, parts[p]);
+  });
+  auto pattern = std::make_shared<SparsePattern>();
+  pattern->rows = pattern->columns = d_.unknowns;
+  for (const SparsePattern& part : parts) {
+    const auto base = static_cast<std::int64_t>(pattern->column.size());
+    for (std::size_t r = 1; r < part.start.size(); ++r) pattern->start.push_back(base + part.start[r]);
+    pattern->column.insert(pattern->column.end(), part.column.begin(), part.column.end());
+  }
+  pattern_ = std::move(pattern);
+}
+
+template <class ElementMatrix>
+SparseMatrix Assembler::assemble(const ElementMatrix& element_matrix) const {
+  SparseMatrix result = zeros(pattern_);
+  // Element matrices are kept for one chunk at a time: 16 MB for regular Loop elements.
+  constexpr std::size_t chunk = 1 << 14;
+  constexpr std::size_t row_block = 64;  // rows are dealt to the threads in blocks, so that near rows stay together
+  const auto owners = static_cast<std::size_t>(concurrency());
+  std::vector<double> buffer;
+  for (std::size_t first = 0; first < d_.elements(); first += chunk) {
+    const std::size_t last = std::min(d_.elements(), first + chunk);
+    buffer.assign(static_cast<std::size_t>(matrix_start_[last] - matrix_start_[first]), 0.0);
+    parallel_for(
+        last - first,
+        [&](std::size_t begin, std::size_t end) {
+          Scratch scratch;
+          for (std::size_t e = first + begin; e < first + end; ++e)
+            element_matrix(e, scratch, buffer.data() + (matrix_start_[e] - matrix_start_[first]));
+        },
+        256);
+    parallel_chunks(owners, [&](std::size_t owner) {
+      for (std::size_t e = first; e < last; ++e) {
+        const double* matrix = buffer.data() + (matrix_start_[e] - matrix_start_[first]);
+        const std::uint16_t* offset = offset_.data() + matrix_start_[e];
+        const Index* function = d_.function.data() + d_.first_function[e];
+        const auto n = static_cast<std::size_t>(d_.first_function[e + 1] - d_.first_function[e]);
+        for (std::size_t i = 0; i < n; ++i) {
+          if (at(function[i]) / row_block % owners != owner) continue;
+          double* row = result.value.data() + pattern_->start[at(function[i])];
+          for (std::size_t j = 0; j < n; ++j) row[offset[i * n + j]] += matrix[i * n + j];
+        }
+      }
+    });
+  }
+  return result;
+}
+
+SparseMatrix Assembler::mass(const std::vector<Point>& control, const std::vector<double>& factor) const {
+  return assemble([&](std::size_t e, Scratch& scratch, double* out) {
+    const ElementClass& c = d_.classes[at(d_.element_class[e])];
+    Vector scale(c.points());
+    for (Index q = 0; q < c.points(); ++q) {
+      const double f = factor.empty() ? 1 : factor[static_cast<std::size_t>(d_.first_point[e] + q)];
+      scale[q] = f * c.weight[q] * metric(c, q, d_.function.data() + d_.first_function[e], control).area;
+    }
+    mass_matrix(c, scale, scratch, out);
+  });
+}
+
+SparseMatrix Assembler::stiffness(const std::vector<Point>& control, const std::vector<double>& factor) const {
+  return assemble([&](std::size_t e, Scratch& scratch, double* out) {
+    const ElementClass& c = d_.classes[at(d_.element_class[e])];
+    std::vector<Form> form(at(c.points()));
+    for (Index q = 0; q < c.points(); ++q) {
+      const double f = factor.empty() ? 1 : factor[static_cast<std::size_t>(d_.first_point[e] + q)];
+      form[at(q)] = gradient_form(metric(c, q, d_.function.data() + d_.first_function[e], control), f * c.weight[q]);
+    }
+    stiffness_matrix(c, form, scratch, out);
+  });
+}
+
+SparseMatrix Assembler::stiffness(const std::vector<Point>& control, const std::vector<Tensor>& tensor) const {
+  return assemble([&](std::size_t e, Scratch& scratch, double* out) {
+    const ElementClass& c = d_.classes[at(d_.element_class[e])];
+    std::vector<Form> form(at(c.points()));
+    for (Index q = 0; q < c.points(); ++q)
+      form[at(q)] = gradient_form(metric(c, q, d_.function.data() + d_.first_function[e], control), c.weight[q],
+                                  tensor[static_cast<std::size_t>(d_.first_point[e] + q)]);
+    stiffness_matrix(c, form, scratch, out);
+  });
+}
+
+QuadratureGeometry quadrature_geometry(const Discretisation& d, const std::vector<Point>& control) {
+  QuadratureGeometry g;
+  const auto count = static_cast<std::size_t>(d.first_point.back());
+  g.position.assign(count, Point{});
+  g.normal.resize(count);
+  g.weight.resize(count);
+  parallel_for(d.elements(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      const ElementClass& c = d.classes[at(d.element_class[e])];
+      const Index* function = d.function.data() + d.first_function[e];
+      for (Index q = 0; q < c.points(); ++q) {
+        const auto point = static_cast<std::size_t>(d.first_point[e] + q);
+        const Metric m = metric(c, q, function, control);
+        g.weight[point] = c.weight[q] * m.area;
+        const Eigen::Vector3d n(m.xv[1] * m.xw[2] - m.xv[2] * m.xw[1], m.xv[2] * m.xw[0] - m.xv[0] * m.xw[2],
+                                m.xv[0] * m.xw[1] - m.xv[1] * m.xw[0]);
+        const double length = n.norm();
+        for (std::size_t k = 0; k < 3; ++k) g.normal[point][k] = length > 0 ? n[static_cast<int>(k)] / length : 0;
+        for (Index i = 0; i < c.functions(); ++i)
+          for (std::size_t k = 0; k < 3; ++k) g.position[point][k] += c.value(q, i) * control[at(function[i])][k];
+      }
+    }
+  });
+  return g;
+}
+
+std::vector<Point> quadrature_gradients(const Discretisation& d, const std::vector<Point>& control,
+                                        const Vector& coefficients) {
+  std::vector<Point> gradient(static_cast<std::size_t>(d.first_point.back()));
+  parallel_for(d.elements(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      const ElementClass& c = d.classes[at(d.element_class[e])];
+      const Index* function = d.function.data() + d.first_function[e];
+      for (Index q = 0; q < c.points(); ++q) {
+        double v = 0, w = 0;
+        for (Index i = 0; i < c.functions(); ++i) {
+          v += c.dv(q, i) * coefficients[function[i]];
+          w += c.dw(q, i) * coefficients[function[i]];
+        }
+        const Metric m = metric(c, q, function, control);
+        const Form inverse = gradient_form(m, m.area > 0 ? 1 / m.area : 0);
+        const Eigen::Vector3d g = (inverse.vv * v + inverse.vw * w) * m.xv + (inverse.vw * v + inverse.ww * w) * m.xw;
+        gradient[static_cast<std::size_t>(d.first_point[e] + q)] = {g[0], g[1], g[2]};
+      }
+    }
+  });
+  return gradient;
+}
+
+SparseMatrix quadrature_values(const Discretisation& d) {
+  auto pattern = std::make_shared<SparsePattern>();
+  pattern->rows = static_cast<std::int32_t>(d.first_point.back());
+  pattern->columns = d.unknowns;
+  SparseMatrix b;
+  std::vector<std::pair<Index, Index>> order;  // function, local number
+  for (std::size_t e = 0; e < d.elements(); ++e) {
+    const ElementClass& c = d.classes[at(d.element_class[e])];
+    order.clear();
+    for (Index i = 0; i < c.functions(); ++i)
+      order.emplace_back(d.function[static_cast<std::size_t>(d.first_function[e] + i)], i);
+    std::sort(order.begin(), order.end());
+    for (Index q = 0; q < c.points(); ++q) {
+      for (const auto& [function, local] : order) {
+        pattern->column.push_back(function);
+        b.value.push_back(c.value(q, local));
+      }
+      pattern->start.push_back(static_cast<std::int64_t>(pattern->column.size()));
+    }
+  }
+  b.pattern = std::move(pattern);
+  return b;
+}
+
+}  // namespace pelage

@@ -1,0 +1,63 @@
+#pragma once
+// Mass, stiffness and load for any discretisation: M = B' W B, K(D) = G' W D G, load = B' W f, with B the basis
+// functions and G their surface gradients at the quadrature points and W the quadrature weights times the area element.
+//
+// Parallel and deterministic: element matrices are computed in any order, every row is summed in the order of elements.
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "discretise/discretisation.h"
+#include "pelage/triangle_mesh.h"
+
+namespace pelage {
+
+/// A symmetric tensor in world coordinates: xx, xy, xz, yy, yz, zz. Only its tangential part acts.
+using Tensor = std::array<double, 6>;
+
+/// Connectivity of the matrices of a discretisation, made once and used for every matrix.
+/// Memory: 2 bytes per entry of all element matrices (288 bytes per regular Loop triangle) besides the pattern.
+class Assembler {
+ public:
+  /// Keeps a reference to the discretisation.
+  explicit Assembler(const Discretisation& discretisation);
+
+  const std::shared_ptr<const SparsePattern>& pattern() const { return pattern_; }
+
+  /// M_ij = integral of c phi_i phi_j; `factor`: c at the quadrature points, empty for 1. Square: [area].
+  SparseMatrix mass(const std::vector<Point>& control, const std::vector<double>& factor = {}) const;
+
+  /// K_ij = integral of grad phi_i . c grad phi_j, positive semidefinite for c >= 0 (the weak form of -div c grad).
+  SparseMatrix stiffness(const std::vector<Point>& control, const std::vector<double>& factor = {}) const;
+
+  /// K_ij = integral of grad phi_i . T grad phi_j for a tensor at each quadrature point.
+  SparseMatrix stiffness(const std::vector<Point>& control, const std::vector<Tensor>& tensor) const;
+
+ private:
+  struct Kernel;
+  template <class ElementMatrix>
+  SparseMatrix assemble(const ElementMatrix& element_matrix) const;
+  void build_rows(Index begin, Index end, const struct FunctionElements& incident, SparsePattern& part);
+
+  const Discretisation& d_;
+  std::shared_ptr<const SparsePattern> pattern_;
+  std::vector<std::int64_t> matrix_start_;  ///< per element + 1: where its matrix begins in offset_
+  std::vector<std::uint16_t> offset_;       ///< of an element matrix' entry within its row of the pattern
+};
+
+/// Positions on the surface and area weights (their sum is the area) of all quadrature points.
+struct QuadratureGeometry {
+  std::vector<Point> position, normal;
+  std::vector<double> weight;
+};
+QuadratureGeometry quadrature_geometry(const Discretisation& discretisation, const std::vector<Point>& control);
+
+/// Surface gradients of a function at the quadrature points, as vectors in space.
+std::vector<Point> quadrature_gradients(const Discretisation& discretisation, const std::vector<Point>& control,
+                                        const Vector& coefficients);
+
+/// Quadrature points x unknowns: the values of the basis functions there.
+SparseMatrix quadrature_values(const Discretisation& discretisation);
+
+}  // namespace pelage

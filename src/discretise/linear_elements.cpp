@@ -1,0 +1,49 @@
+#include "discretise/discretisation.h"
+
+namespace pelage {
+
+namespace {
+
+ElementClass linear_element() {
+  ElementClass element;
+  element.place = {{0.5, 0}, {0.5, 0.5}, {0, 0.5}};
+  element.weight = Vector::Constant(3, 1.0 / 6);
+  element.value.resize(3, 3);
+  for (Eigen::Index q = 0; q < 3; ++q) {
+    const auto [v, w] = element.place[static_cast<std::size_t>(q)];
+    element.value.row(q) << 1 - v - w, v, w;
+  }
+  element.dv = Eigen::RowVector3d(-1, 1, 0).replicate(3, 1);
+  element.dw = Eigen::RowVector3d(-1, 0, 1).replicate(3, 1);
+  return element;
+}
+
+SparseMatrix identity(Index n) {
+  auto pattern = std::make_shared<SparsePattern>();
+  pattern->rows = pattern->columns = n;
+  for (Index i = 0; i < n; ++i) {
+    pattern->column.push_back(i);
+    pattern->start.push_back(i + 1);
+  }
+  return {std::move(pattern), std::vector<double>(static_cast<std::size_t>(n), 1.0)};
+}
+
+}  // namespace
+
+Discretisation linear_discretisation(Topology topology) {
+  Discretisation d;
+  d.method = "linear";
+  d.unknowns = topology.vertex_count;
+  d.classes.push_back(linear_element());
+  d.element_class.assign(topology.triangles.size(), 0);
+  for (std::size_t f = 0; f <= topology.triangles.size(); ++f) {
+    d.first_function.push_back(static_cast<std::int64_t>(3 * f));
+    d.first_point.push_back(static_cast<std::int64_t>(3 * f));
+  }
+  for (const Triangle& t : topology.triangles) d.function.insert(d.function.end(), t.begin(), t.end());
+  d.values = identity(d.unknowns);
+  d.topology = std::move(topology);
+  return d;
+}
+
+}  // namespace pelage

@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <utility>
+
+#include "discretise/discretisation.h"
+#include "discretise/loop_patch.h"
+#include "pelage/error.h"
+#include "shape/loop_subdivision.h"
+
+namespace pelage {
+
+namespace {
+
+struct QuadraturePoint {
+  double v, w, weight;
+};
+
+/// Six points, exact for polynomials of degree four (Strang, Fix 1973; digits of Dunavant 1985). The weights sum to
+/// 1/2.
+std::vector<QuadraturePoint> six_point_rule() {
+  constexpr double a = 0.445948490915965, weight_a = 0.223381589678011 / 2;
+  constexpr double b = 0.091576213509771, weight_b = 0.109951743655322 / 2;
+  std::vector<QuadraturePoint> rule;
+  for (auto [x, weight] : {std::pair{a, weight_a}, std::pair{b, weight_b}})
+    for (auto [v, w] : {std::pair{x, x}, std::pair{1 - 2 * x, x}, std::pair{x, 1 - 2 * x}})
+      rule.push_back({v, w, weight});
+  return rule;
+}
+
+/// The rule on the four children of the triangle.
+std::vector<QuadraturePoint> split(const std::vector<QuadraturePoint>& rule) {
+  std::vector<QuadraturePoint> fine;
+  for (const QuadraturePoint& p : rule) {
+    fine.push_back({p.v / 2, p.w / 2, p.weight / 4});
+    fine.push_back({(1 + p.v) / 2, p.w / 2, p.weight / 4});
+    fine.push_back({p.v / 2, (1 + p.w) / 2, p.weight / 4});
+    fine.push_back({(1 - p.v) / 2, (1 - p.w) / 2, p.weight / 4});
+  }
+  return fine;
+}
+
+ElementClass tabulate(const LoopPatches& patches, Index patch_class, const LoopQuadrature& quadrature) {
+  auto rule = six_point_rule();
+  const int splits = patches.polynomial(patch_class) ? quadrature.regular_splits : quadrature.irregular_splits;
+  for (int i = 0; i < splits; ++i) rule = split(rule);
+  const auto points = static_cast<Eigen::Index>(rule.size());
+  ElementClass element;
+  element.value.resize(points, patches.size(patch_class));
+  element.dv.resizeLike(element.value);
+  element.dw.resizeLike(element.value);
+  element.weight.resize(points);
+  for (Eigen::Index q = 0; q < points; ++q) {
+    const QuadraturePoint& p = rule[static_cast<std::size_t>(q)];
+    const PatchJet jet = patches.evaluate(patch_class, p.v, p.w);
+    element.value.row(q) = jet.row(0);
+    element.dv.row(q) = jet.row(1);
+    element.dw.row(q) = jet.row(2);
+    element.weight[q] = p.weight;
+    element.place.push_back({p.v, p.w});
+  }
+  return element;
+}
+
+/// Stencils as a matrix with ascending columns.
+SparseMatrix to_matrix(const Stencils& stencils) {
+  auto pattern = std::make_shared<SparsePattern>();
+  pattern->rows = static_cast<std::int32_t>(stencils.rows());
+  pattern->columns = stencils.columns;
+  SparseMatrix matrix;
+  std::vector<std::pair<Index, double>> row;
+  for (std::size_t r = 0; r < stencils.rows(); ++r) {
+    row.clear();
+    for (auto k = static_cast<std::size_t>(stencils.start[r]); k < static_cast<std::size_t>(stencils.start[r + 1]); ++k)
+      row.emplace_back(stencils.index[k], stencils.weight[k]);
+    std::sort(row.begin(), row.end());
+    for (const auto& [column, weight] : row) {
+      pattern->column.push_back(column);
+      matrix.value.push_back(weight);
+    }
+    pattern->start.push_back(static_cast<std::int64_t>(pattern->column.size()));
+  }
+  matrix.pattern = std::move(pattern);
+  return matrix;
+}
+
+void refuse_high_valence(const Topology& topology) {
+  const Index valence = max_valence(topology);
+  if (valence > max_loop_valence)
+    throw Error(Fault::input, "a vertex has " + std::to_string(valence) + " edges, more than the " +
+                                  std::to_string(max_loop_valence) +
+                                  " that Loop elements allow; use the linear method or remesh");
+}
+
+}  // namespace
+
+Discretisation loop_discretisation(Topology topology, const LoopQuadrature& quadrature) {
+  refuse_high_valence(topology);
+  Discretisation d;
+  d.method = "loop";
+  d.unknowns = topology.vertex_count;
+  d.first_function.push_back(0);
+  d.first_point.push_back(0);
+  d.element_class.reserve(topology.triangles.size());
+  d.function.reserve(12 * topology.triangles.size());
+  LoopPatches patches;
+  std::vector<Index> table;  // element class of a patch class; only some patch classes occur as elements
+  for (std::size_t f = 0; f < topology.triangles.size(); ++f) {
+    const auto patch_class = static_cast<std::size_t>(patches.classify(topology, static_cast<Index>(f), d.function));
+    if (table.size() < patches.class_count()) table.resize(patches.class_count(), -1);
+    if (table[patch_class] < 0) {
+      table[patch_class] = static_cast<Index>(d.classes.size());
+      d.classes.push_back(tabulate(patches, static_cast<Index>(patch_class), quadrature));
+    }
+    d.element_class.push_back(table[patch_class]);
+    d.first_function.push_back(static_cast<std::int64_t>(d.function.size()));
+    d.first_point.push_back(d.first_point.back() + d.classes[static_cast<std::size_t>(table[patch_class])].points());
+  }
+  const LimitMasks masks = loop_limit_masks(topology);
+  d.values = to_matrix(masks.position);
+  d.tangent1 = to_matrix(masks.tangent1);
+  d.tangent2 = to_matrix(masks.tangent2);
+  d.topology = std::move(topology);
+  return d;
+}
+
+}  // namespace pelage

@@ -1,0 +1,157 @@
+#include "discretise/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "linalg/conjugate_gradient.h"
+
+namespace pelage {
+
+namespace {
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+Vector coordinate(const std::vector<Point>& points, std::size_t k) {
+  Vector v(static_cast<Eigen::Index>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) v[static_cast<Eigen::Index>(i)] = points[i][k];
+  return v;
+}
+
+std::vector<Point> apply_to_points(const SparseMatrix& a, const std::vector<Point>& points) {
+  std::vector<Point> result(at(a.rows()), Point{});
+  parallel_for(result.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t r = begin; r < end; ++r)
+      for (auto k = a.pattern->start[r]; k < a.pattern->start[r + 1]; ++k)
+        for (std::size_t d = 0; d < 3; ++d) result[r][d] += a.value[at(k)] * points[at(a.pattern->column[at(k)])][d];
+  });
+  return result;
+}
+
+Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+void normalise(Point& p) {
+  const double length = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+  for (double& x : p) x = length > 0 ? x / length : 0;
+}
+
+/// Area-weighted normals of flat triangles.
+std::vector<Point> vertex_normals(const Topology& topology, const std::vector<Point>& points) {
+  std::vector<Point> normal(points.size(), Point{});
+  for (const Triangle& t : topology.triangles) {
+    Point a, b;
+    for (std::size_t d = 0; d < 3; ++d) {
+      a[d] = points[at(t[1])][d] - points[at(t[0])][d];
+      b[d] = points[at(t[2])][d] - points[at(t[0])][d];
+    }
+    const Point n = cross(a, b);
+    for (Index v : t)
+      for (std::size_t d = 0; d < 3; ++d) normal[at(v)][d] += n[d];
+  }
+  for (Point& n : normal) normalise(n);
+  return normal;
+}
+
+/// A third of the area of the triangles around each vertex, measured by the quadrature.
+Vector area_share(const Discretisation& d, const std::vector<Point>& control) {
+  const QuadratureGeometry g = quadrature_geometry(d, control);
+  Vector share = Vector::Zero(d.unknowns);
+  for (std::size_t e = 0; e < d.elements(); ++e) {
+    double area = 0;
+    for (auto q = d.first_point[e]; q < d.first_point[e + 1]; ++q) area += g.weight[at(q)];
+    for (Index v : d.topology.triangles[e]) share[v] += area / 3;
+  }
+  return share;
+}
+
+/// Vertices without triangles have no area; any positive weight will do, as nothing else acts on them.
+void give_isolated_vertices_weight(Vector& weight) {
+  for (double& w : weight)
+    if (!(w > 0)) w = 1;
+}
+
+Vector vertex_weights(const Discretisation& d, const std::vector<Point>& control, const SparseMatrix& transposed,
+                      const SparseMatrix& mass) {
+  const Vector ones = Vector::Ones(d.unknowns);
+  const Vector integral = mass * ones;
+  const Vector share = area_share(d, control);
+  Vector weight = d.method == "linear" ? integral : solve_general(transposed, integral);
+  weight = weight.cwiseMax(0.1 * share);
+  weight *= integral.sum() / weight.sum();
+  give_isolated_vertices_weight(weight);
+  return weight;
+}
+
+}  // namespace
+
+std::vector<Point> limit_positions(const Discretisation& d, const std::vector<Point>& control) {
+  return apply_to_points(d.values, control);
+}
+
+std::vector<Point> limit_normals(const Discretisation& d, const std::vector<Point>& control) {
+  if (d.tangent1.value.empty()) return vertex_normals(d.topology, control);
+  std::vector<Point> normal = apply_to_points(d.tangent1, control);
+  const std::vector<Point> other = apply_to_points(d.tangent2, control);
+  for (std::size_t i = 0; i < normal.size(); ++i) {
+    normal[i] = cross(normal[i], other[i]);
+    normalise(normal[i]);
+  }
+  return normal;
+}
+
+Sampling vertex_sampling(const Discretisation& d, const std::vector<Point>& control, const SparseMatrix& mass) {
+  Sampling s;
+  s.values = d.values;
+  s.transposed = transpose(d.values);
+  s.weight = vertex_weights(d, control, s.transposed, mass);
+  s.position = limit_positions(d, control);
+  s.normal = limit_normals(d, control);
+  return s;
+}
+
+Sampling quadrature_sampling(const Discretisation& d, const std::vector<Point>& control) {
+  QuadratureGeometry g = quadrature_geometry(d, control);
+  Sampling s;
+  s.values = quadrature_values(d);
+  s.transposed = transpose(s.values);
+  s.weight = Eigen::Map<const Vector>(g.weight.data(), static_cast<Eigen::Index>(g.weight.size()));
+  s.position = std::move(g.position);
+  s.normal = std::move(g.normal);
+  return s;
+}
+
+SparseMatrix sampled_mass(const Sampling& s, const std::shared_ptr<const SparsePattern>& pattern) {
+  SparseMatrix mass = zeros(pattern);
+  const SparsePattern& samples_of = *s.transposed.pattern;
+  const SparsePattern& functions_of = *s.values.pattern;
+  parallel_for(at(pattern->rows), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (auto k = samples_of.start[i]; k < samples_of.start[i + 1]; ++k) {
+        const auto sample = at(samples_of.column[at(k)]);
+        const double factor = s.transposed.value[at(k)] * s.weight[static_cast<Eigen::Index>(sample)];
+        for (auto j = functions_of.start[sample]; j < functions_of.start[sample + 1]; ++j)
+          mass.value[at(pattern->find(static_cast<std::int32_t>(i), functions_of.column[at(j)]))] +=
+              factor * s.values.value[at(j)];
+      }
+  });
+  return mass;
+}
+
+Vector load(const Sampling& s, const Vector& f) { return s.transposed * Vector(s.weight.cwiseProduct(f)); }
+
+Vector coefficients_from_samples(const Sampling& s, const SparseMatrix& mass, const Vector& samples) {
+  return solve_spd(mass, load(s, samples), {.tolerance = 1e-13});
+}
+
+std::vector<Point> interpolating_control(const Discretisation& d, const std::vector<Point>& positions) {
+  std::vector<Point> control(positions.size());
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector x = solve_general(d.values, coordinate(positions, k));
+    for (std::size_t i = 0; i < control.size(); ++i) control[i][k] = x[static_cast<Eigen::Index>(i)];
+  }
+  return control;
+}
+
+}  // namespace pelage

@@ -1,0 +1,47 @@
+#pragma once
+// The bridge between coefficients and samples. Reactions, masks, initial states and colours act on samples, the values
+// of the fields at places on the surface; steppers solve for coefficients.
+//
+//   samples = values * coefficients,   M = values' W values,   load(f) = values' W f
+
+#include "discretise/assembly.h"
+#include "discretise/discretisation.h"
+
+namespace pelage {
+
+struct Sampling {
+  SparseMatrix values;      ///< samples x unknowns
+  SparseMatrix transposed;  ///< values'
+  Vector weight;            ///< area of each sample, positive
+  std::vector<Point> position, normal;
+
+  Eigen::Index count() const { return weight.size(); }
+};
+
+/// Samples at the limit positions of the vertices, with the weights w = A^-T (M 1), A = values, that make the
+/// quadrature exact for every basis function: as accurate as the consistent mass to less than a percent at ten edges
+/// per wavelength, and several times cheaper. Weights that come out below a tenth of the vertex' share of the area
+/// (some are negative on uneven meshes) are raised to it, and all are scaled to keep the total area.
+Sampling vertex_sampling(const Discretisation& discretisation, const std::vector<Point>& control,
+                         const SparseMatrix& mass);
+
+/// Samples at the quadrature points, the reference.
+Sampling quadrature_sampling(const Discretisation& discretisation, const std::vector<Point>& control);
+
+/// values' W values in a pattern that contains it.
+SparseMatrix sampled_mass(const Sampling& sampling, const std::shared_ptr<const SparsePattern>& pattern);
+
+/// values' (W f).
+Vector load(const Sampling& sampling, const Vector& f);
+
+/// Coefficients whose samples are nearest to the given ones in the weighted mean square (equal at vertex sampling).
+Vector coefficients_from_samples(const Sampling& sampling, const SparseMatrix& mass, const Vector& samples);
+
+/// Control points whose limit positions are the given ones.
+std::vector<Point> interpolating_control(const Discretisation& discretisation, const std::vector<Point>& positions);
+
+/// Limit positions and unit normals at the vertices.
+std::vector<Point> limit_positions(const Discretisation& discretisation, const std::vector<Point>& control);
+std::vector<Point> limit_normals(const Discretisation& discretisation, const std::vector<Point>& control);
+
+}  // namespace pelage

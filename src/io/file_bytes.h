@@ -1,0 +1,11 @@
+#pragma once
+// A whole file in memory.
+
+#include <string>
+
+namespace pelage {
+
+/// The bytes of a file. Throws Error(Fault::input) if it cannot be read, is a directory, or is compressed.
+std::string read_file(const std::string& path);
+
+}  // namespace pelage

@@ -1,0 +1,16 @@
+#pragma once
+// STL (text and binary).
+
+#include <string>
+#include <string_view>
+
+#include "io/raw_shape.h"
+
+namespace pelage {
+
+/// Reads the facets of an STL file, every corner a vertex of its own: the repair welds them. Binary files are
+/// told by their length, as many begin with "solid" too. Normals, names and attribute bytes are skipped.
+/// Throws Error(Fault::input) with file and line or facet.
+RawShape read_stl(std::string_view bytes, const std::string& path);
+
+}  // namespace pelage

@@ -1,0 +1,201 @@
+#include "look/dress.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "base/suggest.h"
+#include "look/ramp.h"
+#include "shape/refine.h"
+
+namespace pelage {
+
+namespace {
+
+/// Colours are linear along the edges of the output: so many edges per wavelength keep spots round.
+constexpr double edges_per_wavelength = 16;
+/// Splitting for the sake of smooth colours stops here: about 100 MB of output.
+constexpr std::size_t most_triangles = 1'500'000;
+/// The ends of the ramp are quantiles, so that a few extreme samples do not bleach the rest.
+constexpr double ramp_quantile = 0.005;
+
+/// Corner values of the four children of every triangle: corners keep theirs, midpoints get the mean.
+std::vector<double> split_corners(const std::vector<double>& values, std::size_t components) {
+  std::vector<double> fine;
+  fine.reserve(4 * values.size());
+  std::vector<double> middle(3 * components);
+  for (std::size_t base = 0; base < values.size(); base += 3 * components) {
+    const double* corner = values.data() + base;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t c = 0; c < components; ++c)
+        middle[k * components + c] = (corner[k * components + c] + corner[(k + 1) % 3 * components + c]) / 2;
+    const double *a = corner, *b = a + components, *c = b + components;
+    const double *ab = middle.data(), *bc = ab + components, *ca = bc + components;
+    for (const double* v : {a, ab, ca, ab, b, bc, ca, bc, c, bc, ca, ab}) fine.insert(fine.end(), v, v + components);
+  }
+  return fine;
+}
+
+/// A mesh on its way through refinement: flat positions and attributes at midpoints, fields by the method's rule.
+struct Tessellation {
+  Topology topology;
+  std::vector<Point> flat;     ///< on the shape's own triangles
+  std::vector<Point> control;  ///< of the surface; empty before the level of the run
+  std::vector<std::vector<double>> fields;
+  std::vector<Attribute> attributes;
+};
+
+void refine(Tessellation& t, bool loop) {
+  const Refinement middle = midpoint_refine(t.topology);
+  t.flat = combine(middle.stencils, t.flat);
+  for (Attribute& a : t.attributes) {
+    const auto components = static_cast<std::size_t>(a.components);
+    a.values = a.domain == Domain::vertex ? combine(middle.stencils, a.values, components)
+                                          : split_corners(a.values, components);
+  }
+  if (!t.control.empty()) {
+    const Stencils stencils = loop ? loop_refine(t.topology).stencils : middle.stencils;
+    t.control = combine(stencils, t.control);
+    for (auto& f : t.fields) f = combine(stencils, f);
+  }
+  t.topology = make_topology(middle.stencils.rows(), middle.triangles);
+}
+
+std::vector<Attribute> kept_attributes(std::vector<Attribute> attributes, const std::vector<std::string>& species) {
+  std::vector<Attribute> kept;
+  for (Attribute& a : attributes) {
+    if (a.name == "normal") continue;               // made anew
+    if (a.name == "color") a.name = "input_color";  // makes room for the coat
+    if (std::find(species.begin(), species.end(), a.name) == species.end()) kept.push_back(std::move(a));
+  }
+  return kept;
+}
+
+/// The shape's triangles at the level of the run, with the run's control points and fields.
+Tessellation at_run_level(CoatFields& fields) {
+  Tessellation t;
+  t.topology = make_topology(fields.shape.points.size(), std::move(fields.shape.triangles));
+  t.flat = std::move(fields.shape.points);
+  t.attributes = kept_attributes(std::move(fields.shape.attributes), fields.species);
+  for (int level = 0; level < fields.levels; ++level) refine(t, false);
+  t.control = std::move(fields.control);
+  t.fields = std::move(fields.coefficients);
+  return t;
+}
+
+int levels_for_colour(const Tessellation& t, double wavelength) {
+  double edge = prevailing_edge(t.topology.triangles, t.control);
+  std::size_t triangles = t.topology.triangles.size();
+  int levels = 0;
+  while (edge > wavelength / edges_per_wavelength && 4 * triangles <= most_triangles) {
+    edge /= 2;
+    triangles *= 4;
+    ++levels;
+  }
+  return levels;
+}
+
+int checked_detail(const Tessellation& t, int detail) {
+  double triangles = static_cast<double>(t.topology.triangles.size());
+  for (int i = 0; i < detail && triangles <= 3e7; ++i) triangles *= 4;
+  if (triangles > 3e7)
+    throw Error(Fault::usage,
+                "detail " + std::to_string(detail) + " makes more than 30 million triangles; ask for less");
+  return detail;
+}
+
+Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+std::vector<double> unit_vectors(const std::vector<Point>& vectors) {
+  std::vector<double> values;
+  values.reserve(3 * vectors.size());
+  for (const Point& v : vectors) {
+    const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (double x : v) values.push_back(length > 0 ? x / length : 0);
+  }
+  return values;
+}
+
+/// Area-weighted normals of flat triangles.
+std::vector<Point> triangle_normals(const std::vector<Triangle>& triangles, const std::vector<Point>& points) {
+  std::vector<Point> normals(points.size(), Point{});
+  for (const Triangle& t : triangles) {
+    const Point &a = points[static_cast<std::size_t>(t[0])], &b = points[static_cast<std::size_t>(t[1])],
+                &c = points[static_cast<std::size_t>(t[2])];
+    const Point n = cross({b[0] - a[0], b[1] - a[1], b[2] - a[2]}, {c[0] - a[0], c[1] - a[1], c[2] - a[2]});
+    for (Index v : t)
+      for (std::size_t d = 0; d < 3; ++d) normals[static_cast<std::size_t>(v)][d] += n[d];
+  }
+  return normals;
+}
+
+std::vector<Point> cross_products(const std::vector<Point>& a, const std::vector<Point>& b) {
+  std::vector<Point> result(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) result[i] = cross(a[i], b[i]);
+  return result;
+}
+
+/// Colours of a field, its lowest and highest half percent at the ends of the ramp.
+std::vector<double> colours(const std::vector<double>& field, const Look& look) {
+  std::vector<double> sorted = field;
+  auto quantile = [&](double q) {
+    const auto nth = sorted.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(sorted.size() - 1));
+    std::nth_element(sorted.begin(), nth, sorted.end());
+    return *nth;
+  };
+  const double low = quantile(ramp_quantile), high = quantile(1 - ramp_quantile);
+  const Ramp ramp = named_ramp(look.ramp.value);
+  std::vector<double> values(3 * field.size());
+  parallel_for(field.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const double place = high > low ? std::clamp((field[i] - low) / (high - low), 0.0, 1.0) : 0.5;
+      const Color color = ramp(look.invert ? 1 - place : place);
+      std::copy(color.begin(), color.end(), values.begin() + static_cast<std::ptrdiff_t>(3 * i));
+    }
+  });
+  return values;
+}
+
+std::size_t shown_species(const std::vector<std::string>& species, const Look& look) {
+  if (!look.species) return species.size() - 1;
+  const auto found = std::find(species.begin(), species.end(), look.species->value);
+  if (found == species.end())
+    throw Error(Fault::usage, unknown_name("species", look.species->value, species), look.species->where);
+  return static_cast<std::size_t>(found - species.begin());
+}
+
+}  // namespace
+
+TriangleMesh dress(CoatFields fields, const Look& look) {
+  const bool loop = fields.loop;
+  const std::size_t shown = shown_species(fields.species, look);
+  Tessellation t = at_run_level(fields);
+  const int levels = look.detail ? checked_detail(t, *look.detail) : levels_for_colour(t, fields.wavelength);
+  for (int level = 0; level < levels; ++level) refine(t, loop);
+
+  TriangleMesh mesh;
+  std::vector<Point> normals;
+  if (loop) {
+    const LimitMasks masks = loop_limit_masks(t.topology);
+    for (auto& f : t.fields) f = combine(masks.position, f);
+    if (!look.keep_shape) {
+      mesh.points = combine(masks.position, t.control);
+      normals = cross_products(combine(masks.tangent1, t.control), combine(masks.tangent2, t.control));
+    }
+  }
+  if (mesh.points.empty()) {
+    mesh.points = std::move(t.flat);
+    normals = triangle_normals(t.topology.triangles, mesh.points);
+  }
+  mesh.triangles = std::move(t.topology.triangles);
+  mesh.set({"normal", 3, Domain::vertex, unit_vectors(normals)});
+  mesh.set({"color", 3, Domain::vertex, colours(t.fields[shown], look)});
+  for (std::size_t i = 0; i < t.fields.size(); ++i)
+    mesh.set({fields.species[i], 1, Domain::vertex, std::move(t.fields[i])});
+  for (Attribute& a : t.attributes) mesh.set(std::move(a));
+  return mesh;
+}
+
+}  // namespace pelage

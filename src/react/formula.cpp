@@ -1,0 +1,332 @@
+#include "react/formula.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.h"
+#include "base/suggest.h"
+#include "react/functions.h"
+
+namespace pelage {
+
+namespace {
+
+// Deep enough for every formula written by hand, shallow enough for the smallest stack (browsers: 64 kB).
+constexpr int deepest_nesting = 100;
+
+const Symbol* built_in_symbol(std::string_view name) {
+  using Kind = Symbol::Kind;
+  static const std::map<std::string, Symbol, std::less<>> symbols = {
+      {"t", {Kind::time}},
+      {"x", {Kind::position, 0}},
+      {"y", {Kind::position, 1}},
+      {"z", {Kind::position, 2}},
+      {"nx", {Kind::normal_vector, 0}},
+      {"ny", {Kind::normal_vector, 1}},
+      {"nz", {Kind::normal_vector, 2}},
+      {"k1", {Kind::curvature, 0}},
+      {"k2", {Kind::curvature, 1}},
+  };
+  const auto found = symbols.find(name);
+  return found == symbols.end() ? nullptr : &found->second;
+}
+
+/// FNV-1a, a hash of text that is the same on every machine.
+std::uint64_t text_hash(std::string_view text) {
+  std::uint64_t key = 0xcbf29ce484222325ULL;
+  for (const char c : text) key = (key ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  return key;
+}
+
+class Parser {
+ public:
+  Parser(Graph& graph, const Formula& formula, const Scope& scope, std::string_view label)
+      : graph_(graph), scope_(scope), tokens_(tokenize(formula)), label_(text_hash(label)) {}
+
+  NodeId parse() {
+    const NodeId result = disjunction();
+    if (peek().kind != Token::Kind::end) expected("an operator or the end of the formula");
+    return result;
+  }
+
+ private:
+  /// Counts the levels of nesting for as long as it lives.
+  class Level {
+   public:
+    explicit Level(Parser& parser) : depth_(parser.depth_) {
+      if (++depth_ > deepest_nesting)
+        throw Error(Fault::usage,
+                    "more than " + std::to_string(deepest_nesting) + " levels of nesting: split into definitions",
+                    parser.peek().where);
+    }
+    ~Level() { --depth_; }
+    Level(const Level&) = delete;
+    Level& operator=(const Level&) = delete;
+
+   private:
+    int& depth_;
+  };
+
+  const Token& peek() const { return tokens_[position_]; }
+  bool sees(std::string_view text) const { return peek().kind != Token::Kind::end && peek().text == text; }
+  const Token& take() { return tokens_[peek().kind == Token::Kind::end ? position_ : position_++]; }
+  bool accept(std::string_view text) {
+    if (!sees(text)) return false;
+    take();
+    return true;
+  }
+  [[noreturn]] void expected(const std::string& what) const {
+    const std::string found =
+        peek().kind == Token::Kind::end ? "the formula ends here" : "found '" + std::string(peek().text) + "'";
+    throw Error(Fault::usage, "expected " + what + ", " + found, peek().where);
+  }
+  NodeId make(Op op, NodeId a, NodeId b = -1) { return graph_.make(op, a, b); }
+
+  NodeId disjunction();
+  NodeId conjunction();
+  NodeId negation();
+  NodeId comparison();
+  NodeId sum();
+  NodeId product();
+  NodeId signed_power();
+  NodeId power();
+  NodeId primary();
+  NodeId parenthesis();
+  NodeId variable(const Token& name);
+  NodeId call(const Token& name);
+  NodeId call(const Token& name, const Function& function);
+  std::vector<NodeId> arguments(const Token& name, std::string_view usage, std::size_t least, std::size_t most);
+  NodeId attribute(const Token& name);
+  NodeId white_noise(const Token& name);
+  NodeId noise(const Token& name);
+  double constant_argument(const Token& name, NodeId argument, const std::string& what) const;
+  std::uint64_t next_stream() { return hash(label_, occurrence_++); }
+  [[noreturn]] void unknown(const Token& name, bool is_function) const;
+
+  Graph& graph_;
+  const Scope& scope_;
+  const std::vector<Token> tokens_;
+  const std::uint64_t label_;
+  std::uint64_t occurrence_ = 0;
+  std::size_t position_ = 0;
+  int depth_ = 0;
+};
+
+NodeId Parser::disjunction() {
+  const Level level(*this);
+  NodeId result = conjunction();
+  while (accept("or")) result = make(Op::logical_or, result, conjunction());
+  return result;
+}
+
+NodeId Parser::conjunction() {
+  NodeId result = negation();
+  while (accept("and")) result = make(Op::logical_and, result, negation());
+  return result;
+}
+
+NodeId Parser::negation() {
+  if (!accept("not")) return comparison();
+  const Level level(*this);
+  return make(Op::logical_not, negation());
+}
+
+NodeId Parser::comparison() {
+  const auto is_comparison = [&] {
+    return std::ranges::any_of(std::array{"<", "<=", ">", ">=", "==", "!="}, [&](auto sign) { return sees(sign); });
+  };
+  const NodeId a = sum();
+  if (!is_comparison()) return a;
+  const std::string_view sign = take().text;
+  const NodeId b = sum();
+  if (is_comparison()) expected("one comparison (write a < b and b < c)");
+  if (sign == "<") return make(Op::less, a, b);
+  if (sign == "<=") return make(Op::less_equal, a, b);
+  if (sign == ">") return make(Op::less, b, a);
+  if (sign == ">=") return make(Op::less_equal, b, a);
+  const NodeId equal = make(Op::equal, a, b);
+  return sign == "==" ? equal : make(Op::logical_not, equal);
+}
+
+NodeId Parser::sum() {
+  NodeId result = product();
+  while (true) {
+    if (accept("+"))
+      result = make(Op::add, result, product());
+    else if (accept("-"))
+      result = make(Op::subtract, result, product());
+    else
+      return result;
+  }
+}
+
+NodeId Parser::product() {
+  NodeId result = signed_power();
+  while (true) {
+    if (accept("*"))
+      result = make(Op::multiply, result, signed_power());
+    else if (accept("/"))
+      result = make(Op::divide, result, signed_power());
+    else
+      return result;
+  }
+}
+
+NodeId Parser::signed_power() {
+  if (!sees("+") && !sees("-")) return power();
+  const Level level(*this);
+  return take().text == "-" ? make(Op::negate, signed_power()) : signed_power();
+}
+
+NodeId Parser::power() {
+  const NodeId base = primary();
+  if (!accept("^")) return base;
+  const Level level(*this);
+  return make(Op::power, base, signed_power());
+}
+
+NodeId Parser::primary() {
+  if (peek().kind == Token::Kind::number) return graph_.constant(take().number);
+  if (sees("(")) return parenthesis();
+  if (peek().kind != Token::Kind::name || sees("and") || sees("or") || sees("not")) expected("a number, a name or '('");
+  const Token& name = take();
+  return sees("(") ? call(name) : variable(name);
+}
+
+NodeId Parser::parenthesis() {
+  const Token& open = take();
+  const NodeId result = disjunction();
+  if (!accept(")")) expected("')' to close the '(' at column " + std::to_string(open.where.column));
+  return result;
+}
+
+NodeId Parser::variable(const Token& name) {
+  if (const auto found = scope_.names.find(name.text); found != scope_.names.end()) return found->second;
+  if (name.text == "pi") return graph_.constant(3.14159265358979323846);
+  if (name.text == "e") return graph_.constant(2.71828182845904523536);
+  const auto symbol = [&](Symbol value) {
+    value.where = name.where;
+    return graph_.symbol(value);
+  };
+  if (const Symbol* built_in = built_in_symbol(name.text)) return symbol(*built_in);
+  if (name.text == "H") {
+    const NodeId k1 = symbol(*built_in_symbol("k1")), k2 = symbol(*built_in_symbol("k2"));
+    return make(Op::multiply, graph_.constant(0.5), make(Op::add, k1, k2));
+  }
+  unknown(name, false);
+}
+
+NodeId Parser::call(const Token& name) {
+  if (name.text == "attribute") return attribute(name);
+  if (name.text == "uniform" || name.text == "normal") return white_noise(name);
+  if (name.text == "noise") return noise(name);
+  for (const Function& function : pure_functions())
+    if (function.name == name.text) return call(name, function);
+  unknown(name, true);
+}
+
+NodeId Parser::call(const Token& name, const Function& function) {
+  std::vector<Term> terms;
+  for (const NodeId id : arguments(name, function.usage, function.arguments, function.arguments))
+    terms.push_back({&graph_, id});
+  return function.build(terms).id;
+}
+
+std::vector<NodeId> Parser::arguments(const Token& name, std::string_view usage, std::size_t least, std::size_t most) {
+  take();  // '('
+  std::vector<NodeId> list;
+  if (!sees(")")) {
+    do list.push_back(disjunction());
+    while (accept(","));
+  }
+  if (!accept(")")) expected("',' or ')' in the arguments of " + std::string(name.text));
+  if (list.size() < least || list.size() > most)
+    throw Error(Fault::usage,
+                "expected " + std::string(usage) + ", found " + std::to_string(list.size()) +
+                    (list.size() == 1 ? " argument" : " arguments"),
+                name.where);
+  return list;
+}
+
+NodeId Parser::attribute(const Token& name) {
+  take();  // '('
+  if (peek().kind != Token::Kind::name) expected("the name of a vertex attribute");
+  Symbol symbol{Symbol::Kind::attribute};
+  symbol.name = take().text;
+  symbol.where = name.where;
+  if (!accept(")")) expected("')' after the name of the attribute");
+  return graph_.symbol(symbol);
+}
+
+NodeId Parser::white_noise(const Token& name) {
+  const bool is_uniform = name.text == "uniform";
+  const auto in = arguments(name, is_uniform ? "uniform(lower, upper)" : "normal(mean, deviation)", 2, 2);
+  Symbol symbol{is_uniform ? Symbol::Kind::uniform : Symbol::Kind::gaussian};
+  symbol.stream = next_stream();
+  symbol.where = name.where;
+  const NodeId draw = graph_.symbol(symbol);
+  const NodeId width = is_uniform ? make(Op::subtract, in[1], in[0]) : in[1];
+  return make(Op::add, in[0], make(Op::multiply, width, draw));
+}
+
+NodeId Parser::noise(const Token& name) {
+  const auto in = arguments(name, "noise(length) or noise(length, seed)", 1, 2);
+  Symbol symbol{Symbol::Kind::noise};
+  symbol.where = name.where;
+  symbol.length = constant_argument(name, in[0], "the length of noise");
+  if (!(symbol.length > 0)) throw Error(Fault::usage, "the length of noise must be greater than 0", name.where);
+  symbol.stream = next_stream();
+  if (in.size() > 1) {
+    const double seed = constant_argument(name, in[1], "the seed of noise");
+    if (!(seed >= 0 && seed < 1e15 && seed == std::floor(seed)))
+      throw Error(Fault::usage, "the seed of noise must be a whole number from 0 to 1e15", name.where);
+    symbol.stream = hash(text_hash("noise"), static_cast<std::uint64_t>(seed));
+  }
+  return graph_.symbol(symbol);
+}
+
+double Parser::constant_argument(const Token& name, NodeId argument, const std::string& what) const {
+  const auto value = graph_.constant_value(argument);
+  if (!value || !std::isfinite(*value))
+    throw Error(Fault::usage, what + " must be a number or made of parameters", name.where);
+  return *value;
+}
+
+void Parser::unknown(const Token& name, bool is_function) const {
+  const std::string word(name.text);
+  if (const auto found = scope_.not_yet.find(word); found != scope_.not_yet.end())
+    throw Error(Fault::usage, "\"" + word + "\" " + found->second, name.where);
+  const bool known = scope_.names.contains(word) || std::ranges::count(reserved_names(), word) > 0;
+  if (known)
+    throw Error(Fault::usage,
+                is_function ? "\"" + word + "\" is not a function; write a * between factors"
+                            : "\"" + word + "\" is a function: expected '(' after it",
+                name.where);
+  std::vector<std::string> names;
+  if (!is_function)
+    for (const auto& [text, id] : scope_.names) names.push_back(text);
+  names.insert(names.end(), reserved_names().begin(), reserved_names().end());
+  const std::string hint = did_you_mean(word, names);
+  throw Error(Fault::usage,
+              (is_function ? "unknown function \"" : "unknown name \"") + word + "\"" +
+                  (hint.empty() ? "; a mesh attribute is written attribute(name)" : "; " + hint),
+              name.where);
+}
+
+}  // namespace
+
+NodeId parse_formula(Graph& graph, const Formula& formula, const Scope& scope, std::string_view label) {
+  return Parser(graph, formula, scope, label).parse();
+}
+
+const std::vector<std::string>& reserved_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list = {"pi", "e", "t", "x", "y", "z", "nx", "ny", "nz", "k1", "k2", "H"};
+    for (const Function& function : pure_functions()) list.emplace_back(function.name);
+    for (const char* name : {"attribute", "uniform", "normal", "noise", "and", "or", "not"}) list.emplace_back(name);
+    return list;
+  }();
+  return names;
+}
+
+}  // namespace pelage

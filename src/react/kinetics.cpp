@@ -1,0 +1,178 @@
+#include "react/kinetics.h"
+
+#include <algorithm>
+#include <cassert>
+#include <set>
+
+#include "base/parallel.h"
+#include "react/place_values.h"
+
+namespace pelage {
+
+namespace {
+
+bool depends_only_on(const Graph& graph, NodeId id, Dependence what) { return graph[id].dependence == what; }
+
+/// The largest sub-expressions of the roots that depend on `what` and on nothing else, in order of number.
+std::vector<NodeId> maximal(const Graph& graph, std::span<const NodeId> roots, Dependence what) {
+  std::set<NodeId> result;
+  const auto look = [&](NodeId id) {
+    if (id >= 0 && depends_only_on(graph, id, what)) result.insert(id);
+  };
+  for (const NodeId root : roots) look(root);
+  for (const NodeId id : reachable(graph, roots)) {
+    const Node& node = graph[id];
+    if (depends_only_on(graph, id, what)) continue;
+    for (int k = 0; k < arity(node.op); ++k) look(node.in[static_cast<std::size_t>(k)]);
+  }
+  return {result.begin(), result.end()};
+}
+
+std::vector<NodeId> join(std::vector<NodeId> a, const std::vector<NodeId>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+std::vector<double*> join(SpeciesOutput a, SpeciesOutput b) {
+  std::vector<double*> both(a.begin(), a.end());
+  both.insert(both.end(), b.begin(), b.end());
+  return both;
+}
+
+}  // namespace
+
+/// Turns the equations of a model into programs over the samples.
+class KineticsBuilder {
+ public:
+  KineticsBuilder(Kinetics& kinetics, const Model& model, const Places& places, std::uint64_t seed)
+      : kinetics_(kinetics), graph_(kinetics.graph_), equations_(model.equations()), places_(places), seed_(seed) {
+    graph_ = equations_.graph;
+    kinetics.size_ = places.positions.size();
+  }
+
+  void build() {
+    const Equations& e = equations_;
+    kinetics_.rates_ = program(e.rate);
+    kinetics_.split_ = program(join(e.c2, e.c3));
+    kinetics_.jacobian_ = program(e.jacobian);
+    kinetics_.diffusion_ = program(join(e.prefactor, e.diffusion));
+    for (std::size_t i = 0; i < e.initial.size(); ++i) kinetics_.initial_.push_back(initial(i));
+  }
+
+ private:
+  /// The concentration as the reaction sees it.
+  NodeId clamped(NodeId species) {
+    const auto i = static_cast<std::size_t>(graph_.symbol_of(species).index);
+    if (std::isfinite(equations_.lower[i]))
+      species = graph_.make(Op::maximum, species, graph_.constant(equations_.lower[i]));
+    if (std::isfinite(equations_.upper[i]))
+      species = graph_.make(Op::minimum, species, graph_.constant(equations_.upper[i]));
+    return species;
+  }
+
+  Kinetics::Program program(const std::vector<NodeId>& expressions) {
+    std::vector<NodeId> roots = rewrite(graph_, expressions, [&](NodeId id) -> std::optional<NodeId> {
+      if (graph_[id].op != Op::symbol || graph_.symbol_of(id).kind != Symbol::Kind::species) return std::nullopt;
+      return clamped(id);
+    });
+    roots = expand_powers(graph_, roots);
+    Kinetics::Program result;
+    const std::vector<NodeId> of_place = maximal(graph_, roots, on_place);
+    result.fields = fields(of_place);
+    result.time_expressions = maximal(graph_, roots, on_time);
+    result.tape = Tape(graph_, roots, join(equations_.species, of_place), result.time_expressions);
+    return result;
+  }
+
+  /// Numbers of the fields that hold the given expressions; those not yet known are evaluated.
+  std::vector<std::size_t> fields(const std::vector<NodeId>& expressions) {
+    std::vector<NodeId> missing;
+    for (const NodeId id : expressions)
+      if (!field_of_.contains(id)) missing.push_back(id);
+    std::vector<std::vector<double>> values = evaluate_places(missing);
+    for (std::size_t k = 0; k < missing.size(); ++k) {
+      field_of_[missing[k]] = kinetics_.fields_.size();
+      kinetics_.fields_.push_back(std::move(values[k]));
+    }
+    std::vector<std::size_t> numbers;
+    for (const NodeId id : expressions) numbers.push_back(field_of_.at(id));
+    return numbers;
+  }
+
+  std::vector<double> initial(std::size_t i) {
+    const std::vector<NodeId> root = expand_powers(graph_, std::vector<NodeId>{equations_.initial[i]});
+    std::vector<double> values = graph_[root[0]].dependence ? std::move(evaluate_places(root)[0])
+                                                            : std::vector<double>{*graph_.constant_value(root[0])};
+    for (double& value : values) value = std::min(std::max(value, equations_.lower[i]), equations_.upper[i]);
+    return values;
+  }
+
+  /// Values at all samples of expressions that depend on the place alone.
+  std::vector<std::vector<double>> evaluate_places(const std::vector<NodeId>& expressions) {
+    std::vector<NodeId> symbols;
+    std::vector<std::vector<double>> inputs, outputs(expressions.size(), std::vector<double>(kinetics_.size_));
+    std::vector<const double*> in;
+    std::vector<double*> out;
+    for (const NodeId id : reachable(graph_, expressions)) {
+      if (graph_[id].op != Op::symbol) continue;
+      symbols.push_back(id);
+      inputs.push_back(place_values(graph_.symbol_of(id), places_, seed_));
+    }
+    for (const auto& input : inputs) in.push_back(input.data());
+    for (auto& output : outputs) out.push_back(output.data());
+    const Tape tape(graph_, expressions, symbols, {});
+    parallel_for(kinetics_.size_, [&](std::size_t begin, std::size_t end) { tape.run(in, {}, begin, end, out); });
+    return outputs;
+  }
+
+  Kinetics& kinetics_;
+  Graph& graph_;
+  const Equations& equations_;
+  const Places& places_;
+  const std::uint64_t seed_;
+  std::map<NodeId, std::size_t> field_of_;
+};
+
+Kinetics::Kinetics(const Model& model, const Places& places, std::uint64_t seed) {
+  KineticsBuilder(*this, model, places, seed).build();
+}
+
+void Kinetics::run(const Program& program, SpeciesValues u, double t, std::size_t begin, std::size_t end,
+                   SpeciesOutput out) const {
+  assert(u.size() == species_count() && end <= size_);
+  std::vector<const double*> inputs(u.begin(), u.end());
+  for (const std::size_t field : program.fields) inputs.push_back(fields_[field].data());
+  std::vector<double> scalars;
+  if (!program.time_expressions.empty())
+    scalars = evaluate(graph_, program.time_expressions, [t](const Symbol&) { return t; });
+  program.tape.run(inputs, scalars, begin, end, out);
+}
+
+void Kinetics::rates(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput out) const {
+  run(rates_, u, t, begin, end, out);
+}
+
+void Kinetics::split(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput c2,
+                     SpeciesOutput c3) const {
+  run(split_, u, t, begin, end, join(c2, c3));
+}
+
+void Kinetics::jacobian(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput out) const {
+  run(jacobian_, u, t, begin, end, out);
+}
+
+void Kinetics::diffusion(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput c0,
+                         SpeciesOutput c1) const {
+  run(diffusion_, u, t, begin, end, join(c0, c1));
+}
+
+void Kinetics::initial(std::size_t i, std::span<double> out) const {
+  assert(out.size() == size_);
+  const std::vector<double>& values = initial_[i];
+  if (values.size() == size_ && size_ != 1)
+    std::ranges::copy(values, out.begin());
+  else
+    std::ranges::fill(out, values.front());
+}
+
+}  // namespace pelage

@@ -1,0 +1,70 @@
+#pragma once
+// A model bound to places on a surface: rates, coefficients and initial values, evaluated in blocks.
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pelage/point.h"
+#include "react/model.h"
+#include "react/tape.h"
+
+namespace pelage {
+
+/// Where the samples lie. All arrays have one entry per sample; those that the model does not use may be empty.
+struct Places {
+  std::span<const Point> positions = {};                           ///< world units; always needed
+  std::span<const Point> normals = {};                             ///< unit length
+  std::span<const double> k1 = {}, k2 = {};                        ///< principal curvatures, 1 / world unit
+  std::map<std::string, std::span<const double>> attributes = {};  ///< vertex attributes of the mesh by name
+  double length_unit = 1;                                          ///< world length of one model length unit
+};
+
+/// Species values: u[s][i] is the concentration of species s at sample i.
+using SpeciesValues = std::span<const double* const>;
+using SpeciesOutput = std::span<double* const>;
+
+/// Sub-expressions that depend on the place alone are evaluated once, here. The methods are thread-safe; they
+/// read u[s][i] and write out[s][i] for begin <= i < end, which must not overlap. The reaction sees
+/// concentrations clamped to the bounds of the model: with b >= 0, rates use max(b, 0).
+class Kinetics {
+ public:
+  /// Copies what it needs from `places`. Error(usage), located in the model, if the model uses normals,
+  /// curvatures or an attribute that the places do not have.
+  Kinetics(const Model& model, const Places& places, std::uint64_t seed);
+
+  std::size_t size() const { return size_; }
+  std::size_t species_count() const { return initial_.size(); }
+
+  /// R of every species.
+  void rates(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput out) const;
+  /// C2 and C3 of every species: R = C2 u + C3 with u clamped.
+  void split(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput c2, SpeciesOutput c3) const;
+  /// dR_i / du_j at out[i * species_count() + j], at the clamped concentrations.
+  void jacobian(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput out) const;
+  /// C0 and C1 of every species (C0 = 1 where C0 is constant: then C1 holds the product).
+  void diffusion(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput c0,
+                 SpeciesOutput c1) const;
+  /// The concentrations of species i at time 0, for all samples, clamped to its bounds.
+  void initial(std::size_t i, std::span<double> out) const;
+
+ private:
+  friend class KineticsBuilder;
+  /// A tape whose inputs are the species and then some of `fields_`.
+  struct Program {
+    Tape tape;
+    std::vector<std::size_t> fields;       ///< which of fields_
+    std::vector<NodeId> time_expressions;  ///< the tape's scalars: evaluated once per call
+  };
+  void run(const Program& program, SpeciesValues u, double t, std::size_t begin, std::size_t end,
+           SpeciesOutput out) const;
+
+  std::size_t size_ = 0;
+  Graph graph_;
+  std::vector<std::vector<double>> fields_;   ///< expressions of the place alone, one value per sample
+  std::vector<std::vector<double>> initial_;  ///< one value per sample, or one for all
+  Program rates_, split_, jacobian_, diffusion_;
+};
+
+}  // namespace pelage

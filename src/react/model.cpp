@@ -1,0 +1,242 @@
+#include "react/model.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+#include "base/suggest.h"
+#include "react/derivative.h"
+#include "react/formula.h"
+#include "react/linear_split.h"
+
+namespace pelage {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& message, const Location& where) { throw Error(Fault::usage, message, where); }
+
+std::string number_text(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  return {buffer, end};
+}
+
+std::string range_text(const ParameterSource& parameter) {
+  const std::string low = std::isfinite(parameter.min) ? number_text(parameter.min) : "";
+  const std::string high = std::isfinite(parameter.max) ? number_text(parameter.max) : "";
+  if (high.empty()) return "at least " + low;
+  return low.empty() ? "at most " + high : "from " + low + " to " + high;
+}
+
+void require_in_range(const ParameterSource& parameter, const Location& where) {
+  if (parameter.value >= parameter.min && parameter.value <= parameter.max && std::isfinite(parameter.value)) return;
+  const std::string range =
+      std::isfinite(parameter.min) || std::isfinite(parameter.max) ? range_text(parameter) : "finite";
+  fail("parameter \"" + parameter.name + "\" is " + number_text(parameter.value) + "; it must be " + range, where);
+}
+
+void apply_overrides(ModelSource& model, const Overrides& overrides) {
+  for (const auto& [name, value] : overrides) {
+    const auto same = [&](const ParameterSource& parameter) { return parameter.name == name; };
+    const auto found = std::ranges::find_if(model.parameters, same);
+    if (found == model.parameters.end()) {
+      std::vector<std::string> names;
+      for (const ParameterSource& parameter : model.parameters) names.push_back(parameter.name);
+      const std::string hint = did_you_mean(name, names);
+      fail("model \"" + model.name + "\" has no parameter \"" + name + "\"; " +
+               (hint.empty() ? "it has " + (names.empty() ? "none" : join_names(names)) : hint),
+           value.where);
+    }
+    found->value = value.value;
+    require_in_range(*found, value.where);
+  }
+}
+
+/// One compilation: source -> equations.
+class Compiler {
+ public:
+  explicit Compiler(const ModelSource& source) : source_(source) {}
+
+  Equations compile() {
+    if (source_.species.empty()) fail("model \"" + source_.name + "\" has no species", source_.where);
+    add_species();
+    add_parameters();
+    add_definitions();
+    for (const SpeciesSource& species : source_.species) add_equation(species);
+    add_jacobian();
+    return std::move(equations_);
+  }
+
+ private:
+  /// Refuses names that are no identifiers, reserved, or already taken.
+  void claim(const std::string& name, const Location& where) {
+    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+    const auto is_part = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); };
+    if (name.empty() || !is_letter(name.front()) || !std::ranges::all_of(name, is_part))
+      fail("\"" + name + "\" is not a name; use letters, digits and _, starting with a letter", where);
+    if (std::ranges::count(reserved_names(), name) > 0)
+      fail("\"" + name + "\" has a meaning in formulas already; choose another name", where);
+    if (!taken_.insert(name).second) fail("\"" + name + "\" is given twice; choose another name", where);
+  }
+
+  void add_species() {
+    for (const SpeciesSource& species : source_.species) {
+      claim(species.name, species.where);
+      Symbol symbol{Symbol::Kind::species, static_cast<int>(equations_.species.size())};
+      symbol.where = species.where;
+      equations_.species.push_back(graph_.symbol(symbol));
+      scope_.names[species.name] = equations_.species.back();
+    }
+  }
+
+  void add_parameters() {
+    for (const ParameterSource& parameter : source_.parameters) {
+      claim(parameter.name, parameter.where);
+      require_in_range(parameter, parameter.where);
+      scope_.names[parameter.name] = graph_.constant(parameter.value);
+    }
+  }
+
+  void add_definitions() {
+    for (const DefinitionSource& definition : source_.definitions) {
+      claim(definition.name, definition.formula.where);
+      scope_.not_yet[definition.name] = "is defined further down; definitions use those above them";
+    }
+    for (const DefinitionSource& definition : source_.definitions) {
+      scope_.not_yet[definition.name] = "is being defined here; a definition cannot use itself";
+      const NodeId id = parse_formula(graph_, definition.formula, scope_, "definitions." + definition.name);
+      scope_.not_yet.erase(definition.name);
+      scope_.names[definition.name] = id;
+    }
+  }
+
+  NodeId parse(const SpeciesSource& species, const std::string& key, const std::optional<Formula>& formula,
+               double otherwise) {
+    if (!formula) return graph_.constant(otherwise);
+    return parse_formula(graph_, *formula, scope_, "species." + species.name + "." + key);
+  }
+
+  void add_equation(const SpeciesSource& species) {
+    add_diffusion(species);
+    add_rate(species);
+    equations_.initial.push_back(parse(species, "initial", species.initial, 0));
+    if (graph_[equations_.initial.back()].dependence & (on_species | on_time))
+      fail("initial values cannot depend on species or on time", species.initial->where);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    equations_.lower.push_back(bound(species, "min", species.lower, -infinity));
+    equations_.upper.push_back(bound(species, "max", species.upper, infinity));
+    if (!(equations_.lower.back() <= equations_.upper.back()))
+      fail("the lower bound of species \"" + species.name + "\" is above its upper bound", species.lower->where);
+  }
+
+  void add_diffusion(const SpeciesSource& species) {
+    const bool coefficients = species.c0 || species.c1;
+    if (species.diffusion && coefficients)
+      fail("species \"" + species.name + "\": give diffusion, or C0 and C1, not both", species.where);
+    if (!species.diffusion && !coefficients)
+      fail("species \"" + species.name + "\" has no diffusion; give 0 if it does not diffuse", species.where);
+    Term c0{&graph_, parse(species, "C0", species.c0, 1)};
+    Term c1{&graph_, species.diffusion ? parse(species, "diffusion", species.diffusion, 0)
+                                       : parse(species, "C1", species.c1, 1)};
+    if (graph_.constant_value(c0.id)) {
+      c1 = c0 * c1;
+      c0.id = graph_.constant(1);
+    }
+    if (const auto constant = graph_.constant_value(c1.id); constant && !(*constant >= 0 && std::isfinite(*constant)))
+      fail("the diffusion of species \"" + species.name + "\" is " + number_text(*constant) + "; it must be 0 or more",
+           (species.diffusion ? species.diffusion
+            : species.c1      ? species.c1
+                              : species.c0)
+               ->where);
+    equations_.prefactor.push_back(c0.id);
+    equations_.diffusion.push_back(c1.id);
+  }
+
+  void add_rate(const SpeciesSource& species) {
+    const bool coefficients = species.c2 || species.c3;
+    if (species.rate && coefficients)
+      fail("species \"" + species.name + "\": give rate, or C2 and C3, not both", species.where);
+    if (!species.rate && !coefficients)
+      fail("species \"" + species.name + "\" has no rate; give rate, or C2 and C3", species.where);
+    const Term u{&graph_, scope_.names.find(species.name)->second};
+    NodeId rate;
+    LinearSplit split;
+    if (species.rate) {
+      rate = parse(species, "rate", species.rate, 0);
+      split = linear_split(graph_, rate, u.id);
+    } else {
+      split = {parse(species, "C2", species.c2, 0), parse(species, "C3", species.c3, 0)};
+      rate = (Term{&graph_, split.c2} * u + Term{&graph_, split.c3}).id;
+    }
+    equations_.rate.push_back(rate);
+    equations_.c2.push_back(split.c2);
+    equations_.c3.push_back(split.c3);
+  }
+
+  double bound(const SpeciesSource& species, const std::string& key, const std::optional<Formula>& formula,
+               double otherwise) {
+    const auto value = graph_.constant_value(parse(species, key, formula, otherwise));
+    if (!value || std::isnan(*value)) fail("a bound must be a number or made of parameters", formula->where);
+    return *value;
+  }
+
+  void add_jacobian() {
+    const std::size_t n = equations_.species.size();
+    equations_.jacobian.resize(n * n);
+    for (std::size_t j = 0; j < n; ++j) {
+      const auto column = derivative(graph_, equations_.rate, equations_.species[j]);
+      for (std::size_t i = 0; i < n; ++i) equations_.jacobian[i * n + j] = column[i];
+    }
+  }
+
+  const ModelSource& source_;
+  Equations equations_;
+  Graph& graph_ = equations_.graph;
+  Scope scope_;
+  std::set<std::string> taken_;
+};
+
+}  // namespace
+
+ModelSource with_variant(ModelSource source, const std::string& variant) {
+  std::vector<std::string> names;
+  for (const VariantSource& candidate : source.variants) {
+    names.push_back(candidate.name);
+    if (candidate.name != variant) continue;
+    apply_overrides(source, candidate.parameters);
+    source.wavelength = candidate.wavelength;  // that of other parameter values says nothing about these
+    const Suggestions& suggested = candidate.suggestions;
+    if (suggested.step) source.suggestions.step = suggested.step;
+    if (suggested.end) source.suggestions.end = suggested.end;
+    if (suggested.tolerance) source.suggestions.tolerance = suggested.tolerance;
+    if (!candidate.title.empty()) source.title = candidate.title;
+    return source;
+  }
+  const std::string hint = did_you_mean(variant, names);
+  fail("model \"" + source.name + "\" has no variant \"" + variant + "\"; " +
+           (hint.empty() ? "it has " + (names.empty() ? "none" : join_names(names)) : hint),
+       {});
+}
+
+std::optional<double> Model::diffusion_constant(std::size_t i) const {
+  const Graph& graph = equations_->graph;
+  if (!graph.constant_value(equations_->prefactor[i])) return std::nullopt;
+  return graph.constant_value(equations_->diffusion[i]);
+}
+
+unsigned Model::diffusion_dependence(std::size_t i) const {
+  const Graph& graph = equations_->graph;
+  return graph[equations_->prefactor[i]].dependence | graph[equations_->diffusion[i]].dependence;
+}
+
+Model compile(const ModelSource& source, const Overrides& overrides) {
+  ModelSource changed = source;
+  apply_overrides(changed, overrides);
+  Model model;
+  model.equations_ = std::make_shared<const Equations>(Compiler(changed).compile());
+  model.source_ = std::make_shared<const ModelSource>(std::move(changed));
+  return model;
+}
+
+}  // namespace pelage

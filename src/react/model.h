@@ -1,0 +1,130 @@
+#pragma once
+// Reaction models as data: what a model file says (ModelSource), and that compiled to expressions (Model).
+//
+// Each species u obeys the generalised PDE (eq. 2 of Bajaj, Xu, Zhang 2008)
+//     du/dt = C0 div(C1 grad u) + R,   R = C2 u + C3,
+// given either by a diffusion (C0 = 1, C1 = diffusion) and a rate R, or by C0, C1, C2, C3 one by one.
+
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "react/expression.h"
+#include "react/lexer.h"
+
+namespace pelage {
+
+struct SpeciesSource {
+  std::string name;
+  Location where;
+  std::optional<Formula> diffusion;  ///< model length unit^2 / model time unit; "0" if it does not diffuse
+  std::optional<Formula> rate;       ///< R: concentration / model time unit
+  std::optional<Formula> c0, c1, c2,
+      c3;                               ///< instead of `diffusion` (C0, C1) or of `rate` (C2, C3); C0, C1 default to 1
+  std::optional<Formula> initial;       ///< at time 0; defaults to 0
+  std::optional<Formula> lower, upper;  ///< bounds to which the concentration is clamped; numbers or parameters
+};
+
+struct ParameterSource {
+  std::string name;
+  double value = 0;
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  std::string unit;  ///< "1" or "" for a pure number
+  std::string help;  ///< one line
+  Location where;
+};
+
+/// A named sub-expression. It may use parameters, species and definitions above it.
+struct DefinitionSource {
+  std::string name;
+  Formula formula;
+};
+
+/// A value for a parameter, and where it was given.
+struct Override {
+  double value = 0;
+  Location where;
+  Override() = default;
+  Override(double number, Location place = {}) : value(number), where(std::move(place)) {}  // NOLINT: implicit
+};
+using Overrides = std::map<std::string, Override>;
+
+/// What the steppers start from; none of it is part of the equations.
+struct Suggestions {
+  std::optional<double> step;       ///< time step, model time units
+  std::optional<double> end;        ///< time after which the pattern is finished
+  std::optional<double> tolerance;  ///< stationary when no concentration changes faster than this per unit time
+};
+
+/// A named set of parameter values under the same equations.
+struct VariantSource {
+  std::string name;
+  std::string title;
+  Overrides parameters;
+  std::optional<double> wavelength;
+  Suggestions suggestions;
+  Location where;
+};
+
+struct ModelSource {
+  std::string name;
+  std::string title;
+  std::string cite;
+  std::string summary;
+  Location where;
+  std::vector<SpeciesSource> species;
+  std::vector<ParameterSource> parameters;
+  std::vector<DefinitionSource> definitions;
+  std::vector<VariantSource> variants;
+  std::optional<double> wavelength;  ///< measured spacing of the finished pattern, model length units
+  Suggestions suggestions;
+};
+
+/// The model with the values of one of its variants. Error(usage) for an unknown variant.
+ModelSource with_variant(ModelSource source, const std::string& variant);
+
+/// The equations of a model; expressions in terms of `graph`, one per species unless said otherwise.
+struct Equations {
+  Graph graph;
+  std::vector<NodeId> species;       ///< the symbols
+  std::vector<NodeId> rate;          ///< R
+  std::vector<NodeId> c2, c3;        ///< R = C2 u + C3
+  std::vector<NodeId> prefactor;     ///< C0, 1 when it is constant (then it is part of `diffusion`)
+  std::vector<NodeId> diffusion;     ///< C1
+  std::vector<NodeId> initial;       ///< depends on the place only
+  std::vector<NodeId> jacobian;      ///< dR_i / du_j at [i * species + j]
+  std::vector<double> lower, upper;  ///< bounds of the concentrations, infinite where there is none
+};
+
+/// A compiled model: an immutable value, cheap to copy.
+class Model {
+ public:
+  const ModelSource& source() const { return *source_; }  ///< parameters carry the values in use
+  const Equations& equations() const { return *equations_; }
+  const std::string& name() const { return source_->name; }
+  std::size_t species_count() const { return source_->species.size(); }
+  const std::string& species_name(std::size_t i) const { return source_->species[i].name; }
+  const std::vector<ParameterSource>& parameters() const { return source_->parameters; }
+
+  /// C0 * C1 of species i where both are numbers; otherwise see Kinetics::diffusion.
+  std::optional<double> diffusion_constant(std::size_t i) const;
+  /// What C0 and C1 of species i vary with: bits of Dependence.
+  unsigned diffusion_dependence(std::size_t i) const;
+  double lower(std::size_t i) const { return equations_->lower[i]; }
+  double upper(std::size_t i) const { return equations_->upper[i]; }
+
+ private:
+  friend Model compile(const ModelSource& source, const Overrides& overrides);
+  std::shared_ptr<const ModelSource> source_;
+  std::shared_ptr<const Equations> equations_;
+};
+
+/// Compiles a model with some of its parameters changed. Error(usage), located, for faults in the formulas,
+/// names that are unknown, reserved or given twice, and parameters outside of their range.
+Model compile(const ModelSource& source, const Overrides& overrides = {});
+
+}  // namespace pelage

@@ -1,0 +1,87 @@
+#include "react/place_values.h"
+
+#include <bit>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "base/suggest.h"
+
+namespace pelage {
+
+namespace {
+
+/// A key for white noise: equal places, to the last bit, give equal keys (and -0 is 0).
+std::uint64_t place_key(std::uint64_t seed, const Point& place) {
+  for (const double coordinate : place) seed = hash(seed, std::bit_cast<std::uint64_t>(coordinate + 0.0));
+  return seed;
+}
+
+double gaussian(std::uint64_t key) {  // Box and Muller 1958; 1 - u is never 0
+  constexpr double two_pi = 6.28318530717958647692;
+  return std::sqrt(-2 * std::log(1 - uniform(key, 0))) * std::cos(two_pi * uniform(key, 1));
+}
+
+template <class Value>
+std::vector<double> tabulate(std::size_t size, Value&& value) {
+  std::vector<double> result(size);
+  parallel_for(size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) result[i] = value(i);
+  });
+  return result;
+}
+
+void require(bool present, const std::string& what, const Symbol& symbol) {
+  if (!present)
+    throw Error(Fault::usage, "the model uses " + what + ", which this surface does not have", symbol.where);
+}
+
+std::span<const double> attribute(const Symbol& symbol, const Places& places) {
+  const auto found = places.attributes.find(symbol.name);
+  if (found != places.attributes.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [name, values] : places.attributes) names.push_back(name);
+  const std::string hint = did_you_mean(symbol.name, names);
+  throw Error(Fault::usage,
+              "the mesh has no vertex attribute \"" + symbol.name + "\"; " +
+                  (hint.empty() ? "it has " + (names.empty() ? "none" : join_names(names)) : hint),
+              symbol.where);
+}
+
+std::vector<double> random_values(const Symbol& symbol, const Places& places, std::uint64_t seed) {
+  const std::uint64_t stream = hash(seed, symbol.stream);
+  return tabulate(places.positions.size(), [&](std::size_t i) {
+    const Point& p = places.positions[i];
+    if (symbol.kind == Symbol::Kind::uniform) return uniform(place_key(stream, p), 0);
+    if (symbol.kind == Symbol::Kind::gaussian) return gaussian(place_key(stream, p));
+    return smooth_noise(p, symbol.length * places.length_unit, stream);
+  });
+}
+
+}  // namespace
+
+std::vector<double> place_values(const Symbol& symbol, const Places& places, std::uint64_t seed) {
+  const std::size_t size = places.positions.size();
+  const auto component = static_cast<std::size_t>(symbol.index);
+  switch (symbol.kind) {
+    case Symbol::Kind::position:
+      return tabulate(size, [&](std::size_t i) { return places.positions[i][component]; });
+    case Symbol::Kind::normal_vector:
+      require(places.normals.size() == size, "normals", symbol);
+      return tabulate(size, [&](std::size_t i) { return places.normals[i][component]; });
+    case Symbol::Kind::curvature: {
+      const auto values = symbol.index == 0 ? places.k1 : places.k2;
+      require(values.size() == size, "curvatures", symbol);
+      return {values.begin(), values.end()};
+    }
+    case Symbol::Kind::attribute: {
+      const auto values = attribute(symbol, places);
+      require(values.size() == size, "attribute \"" + symbol.name + "\"", symbol);
+      return {values.begin(), values.end()};
+    }
+    default:
+      return random_values(symbol, places, seed);
+  }
+}
+
+}  // namespace pelage

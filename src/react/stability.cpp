@@ -1,0 +1,274 @@
+#include "react/stability.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/random.h"
+
+namespace pelage {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// The equations at one point, everything that depends on the place being at its mean.
+class PointSystem {
+ public:
+  explicit PointSystem(const Model& model) : equations_(model.equations()), size_(model.species_count()) {}
+
+  std::size_t size() const { return size_; }
+  VectorXd rate(const VectorXd& u) const { return vector(equations_.rate, u); }
+  VectorXd initial() const { return vector(equations_.initial, VectorXd::Zero(static_cast<Eigen::Index>(size_))); }
+  MatrixXd jacobian(const VectorXd& u) const {
+    const auto n = static_cast<Eigen::Index>(size_);
+    return vector(equations_.jacobian, u).reshaped<Eigen::RowMajor>(n, n);
+  }
+  VectorXd diffusion(const VectorXd& u) const {
+    return vector(equations_.prefactor, u).cwiseProduct(vector(equations_.diffusion, u));
+  }
+  bool within_bounds(const VectorXd& u) const {
+    for (std::size_t i = 0; i < size_; ++i) {
+      const double value = u[static_cast<Eigen::Index>(i)], slack = 1e-9 * (1 + std::fabs(value));
+      if (value < equations_.lower[i] - slack || value > equations_.upper[i] + slack) return false;
+    }
+    return true;
+  }
+
+ private:
+  VectorXd vector(const std::vector<NodeId>& roots, const VectorXd& u) const {
+    const auto value_of = [&](const Symbol& symbol) {
+      if (symbol.kind == Symbol::Kind::species) return u[symbol.index];
+      return symbol.kind == Symbol::Kind::uniform ? 0.5 : 0.0;
+    };
+    const std::vector<double> values = evaluate(equations_.graph, roots, value_of);
+    return Eigen::Map<const VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  }
+
+  const Equations& equations_;
+  const std::size_t size_;
+};
+
+/// Newton's method with halved steps while the residual does not fall. The pseudo-inverse lets it converge to a
+/// point of a line of steady states too (conserved quantities make the Jacobian singular there).
+std::optional<VectorXd> steady_state_from(const PointSystem& system, VectorXd u) {
+  VectorXd rate = system.rate(u);
+  for (int iteration = 0; iteration < 60 && rate.allFinite(); ++iteration) {
+    const MatrixXd jacobian = system.jacobian(u);
+    if (!jacobian.allFinite()) return std::nullopt;
+    const VectorXd step = jacobian.completeOrthogonalDecomposition().solve(rate);
+    const double size = 1e-3 + u.norm();
+    if (step.norm() <= 1e-13 * size)
+      return rate.norm() <= 1e-9 * jacobian.norm() * size ? std::optional(u) : std::nullopt;
+    double length = 1;
+    VectorXd next = u - step;
+    VectorXd next_rate = system.rate(next);
+    while (length > 1e-4 && !(next_rate.norm() < rate.norm())) {
+      length /= 2;
+      next = u - length * step;
+      next_rate = system.rate(next);
+    }
+    if (!next_rate.allFinite()) return std::nullopt;
+    if (!(next_rate.norm() < rate.norm())) return step.norm() <= 1e-7 * size ? std::optional(u) : std::nullopt;
+    u = next;
+    rate = next_rate;
+  }
+  return std::nullopt;
+}
+
+/// The mean initial values, and points spread over four orders of magnitude in every orthant.
+std::vector<VectorXd> starting_points(const PointSystem& system) {
+  constexpr std::uint64_t seed = 1;  // any: the points only have to be spread out
+  constexpr int count = 300;
+  const auto n = static_cast<Eigen::Index>(system.size());
+  std::vector<VectorXd> starts = {system.initial(), VectorXd::Zero(n), VectorXd::Ones(n)};
+  for (int k = 0; k < count; ++k) {
+    VectorXd u(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto counter = static_cast<std::uint64_t>(k) * system.size() * 2 + static_cast<std::uint64_t>(2 * i);
+      const double magnitude = std::pow(10.0, 4 * uniform(seed, counter) - 2.5);
+      // Concentrations are mostly positive; every fourth start also looks elsewhere.
+      u[i] = k % 4 == 0 && uniform(seed, counter + 1) < 0.5 ? -magnitude : magnitude;
+    }
+    starts.push_back(u);
+  }
+  return starts;
+}
+
+std::vector<VectorXd> find_steady_states(const PointSystem& system) {
+  constexpr std::size_t most = 64;  // a line of steady states would give one per start
+  std::vector<VectorXd> states;
+  for (const VectorXd& start : starting_points(system)) {
+    const auto state = start.allFinite() ? steady_state_from(system, start) : std::nullopt;
+    if (!state || !system.within_bounds(*state) || states.size() == most) continue;
+    const auto same = [&](const VectorXd& other) { return (other - *state).norm() <= 1e-6 * (1e-3 + state->norm()); };
+    if (std::ranges::none_of(states, same)) states.push_back(*state);
+  }
+  return states;
+}
+
+MatrixXd jacobian_of(const Stability& stability) {
+  const auto n = static_cast<Eigen::Index>(stability.diffusion.size());
+  return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+      stability.jacobian.data(), n, n);
+}
+
+std::vector<std::complex<double>> sorted_eigenvalues(const MatrixXd& matrix) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  if (!matrix.allFinite()) return std::vector<std::complex<double>>(static_cast<std::size_t>(matrix.rows()), nan);
+  const Eigen::VectorXcd values = Eigen::EigenSolver<MatrixXd>(matrix, false).eigenvalues();
+  std::vector<std::complex<double>> list(values.begin(), values.end());
+  std::ranges::sort(list,
+                    [](auto a, auto b) { return a.real() != b.real() ? a.real() > b.real() : a.imag() > b.imag(); });
+  return list;
+}
+
+/// Growth as a function of log k, sampled, with its maxima refined.
+class Dispersion {
+ public:
+  explicit Dispersion(const Stability& stability) : stability_(stability) {
+    const double fastest = *std::ranges::max_element(stability.diffusion);
+    const double slowest = smallest_positive(stability.diffusion);
+    scale_ = jacobian_of(stability).norm();
+    if (!std::isfinite(fastest) || !(slowest > 0) || !(scale_ > 0)) return;
+    // Diffusion over one wavelength is as fast as the reaction between these two wave numbers; three more
+    // decades on either side leave nothing out.
+    low_ = std::log(1e-3 * std::sqrt(scale_ / fastest));
+    high_ = std::log(1e3 * std::sqrt(scale_ / slowest));
+    for (int i = 0; i <= intervals; ++i) samples_.push_back(growth(at(i)));
+  }
+
+  bool empty() const { return samples_.empty(); }
+  double growth(double log_k) const { return growth_rate(stability_, std::exp(log_k)).real(); }
+  /// Growth rates smaller than this are rounding.
+  double noise() const { return 1e-10 * scale_; }
+
+  /// log k of the highest maximum that has lower growth on both sides.
+  std::optional<double> highest_maximum() const {
+    std::optional<int> best;
+    for (int i = 1; i < intervals; ++i)
+      if (is_peak(i) && (!best || sample(i) > sample(*best))) best = i;
+    if (!best) return std::nullopt;
+    return refine(at(*best - 1), at(*best + 1));
+  }
+
+  /// Growth changes its sign between log k = peak and the end of the range on one side, or that end.
+  double edge_of_band(double peak, bool upwards) const {
+    const double width = (high_ - low_) / intervals;
+    double inside = peak, outside = peak;
+    do {
+      inside = outside;
+      outside += upwards ? width : -width;
+      if (outside < low_ || outside > high_) return upwards ? high_ : low_;
+    } while (growth(outside) > 0);
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (inside + outside);
+      (growth(middle) > 0 ? inside : outside) = middle;
+    }
+    return inside;
+  }
+
+ private:
+  static constexpr int intervals = 3000;  // 0.6 % in k for diffusion ratios up to 1e4
+
+  static double smallest_positive(const std::vector<double>& values) {
+    double result = 0;
+    for (const double value : values)
+      if (value > 0 && (result == 0 || value < result)) result = value;
+    return result;
+  }
+  double at(int i) const { return low_ + (high_ - low_) * i / intervals; }
+  double sample(int i) const { return samples_[static_cast<std::size_t>(i)]; }
+
+  /// A maximum that stands out of the rounding errors of a plateau on both sides.
+  bool is_peak(int i) const {
+    if (!(sample(i) >= sample(i - 1) && sample(i) >= sample(i + 1))) return false;
+    const auto middle = samples_.begin() + i;
+    const double left = *std::min_element(samples_.begin(), middle), right = *std::min_element(middle, samples_.end());
+    return sample(i) > std::max(left, right) + noise();
+  }
+
+  double refine(double a, double b) const {  // golden section
+    constexpr double ratio = 0.61803398874989484820;
+    double c = b - ratio * (b - a), d = a + ratio * (b - a);
+    double fc = growth(c), fd = growth(d);
+    while (b - a > 1e-12) {
+      if (fc > fd) {
+        b = d, d = c, fd = fc;
+        c = b - ratio * (b - a);
+        fc = growth(c);
+      } else {
+        a = c, c = d, fc = fd;
+        d = a + ratio * (b - a);
+        fd = growth(d);
+      }
+    }
+    return 0.5 * (a + b);
+  }
+
+  const Stability& stability_;
+  double low_ = 0, high_ = 0, scale_ = 0;
+  std::vector<double> samples_;
+};
+
+void analyse_dispersion(Stability& stability) {
+  stability.growth = stability.eigenvalues.front().real();
+  stability.oscillatory = stability.eigenvalues.front().imag() != 0;
+  const Dispersion dispersion(stability);
+  if (dispersion.empty()) return;
+  const auto peak = dispersion.highest_maximum();
+  if (!peak) return;
+  const std::complex<double> sigma = growth_rate(stability, std::exp(*peak));
+  // A damped maximum below the growth of the uniform state (a Hopf mode, say) shapes no pattern.
+  if (sigma.real() < -dispersion.noise() && sigma.real() < stability.growth) return;
+  stability.wavelength = 2 * std::numbers::pi / std::exp(*peak);
+  stability.growth = sigma.real();
+  stability.oscillatory = sigma.imag() != 0;
+  if (sigma.real() <= dispersion.noise()) return;
+  stability.band_min = std::exp(dispersion.edge_of_band(*peak, false));
+  stability.band_max = std::exp(dispersion.edge_of_band(*peak, true));
+}
+
+}  // namespace
+
+Stability analyse(const Model& model) {
+  const PointSystem system(model);
+  const std::vector<VectorXd> states = find_steady_states(system);
+  Stability result;
+  if (states.empty()) return result;
+  const VectorXd initial = system.initial();
+  const auto distance = [&](const VectorXd& state) { return (state - initial).norm(); };
+  const auto nearest = std::ranges::min_element(states, {}, distance);
+  result.chosen = static_cast<std::size_t>(nearest - states.begin());
+  for (const VectorXd& state : states) result.steady_states.emplace_back(state.begin(), state.end());
+  const MatrixXd jacobian = system.jacobian(*nearest);
+  const VectorXd diffusion = system.diffusion(*nearest);
+  const auto by_row = jacobian.reshaped<Eigen::RowMajor>();
+  result.jacobian.assign(by_row.begin(), by_row.end());
+  result.diffusion.assign(diffusion.begin(), diffusion.end());
+  result.eigenvalues = sorted_eigenvalues(jacobian);
+  analyse_dispersion(result);
+  return result;
+}
+
+std::complex<double> growth_rate(const Stability& stability, double wave_number) {
+  MatrixXd matrix = jacobian_of(stability);
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    matrix(i, i) -= wave_number * wave_number * stability.diffusion[static_cast<std::size_t>(i)];
+  return sorted_eigenvalues(matrix).front();
+}
+
+double model_wavelength(const Model& model) {
+  if (model.source().wavelength) return *model.source().wavelength;
+  if (const auto critical = analyse(model).wavelength) return *critical;
+  throw Error(Fault::usage,
+              "model \"" + model.name() +
+                  "\" has no wavelength of its own with these parameters (no uniform state with a fastest growing "
+                  "wave); give `wavelength` in its file, or other parameters",
+              model.source().where);
+}
+
+}  // namespace pelage

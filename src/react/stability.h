@@ -1,0 +1,39 @@
+#pragma once
+// What the equations say before anything is run: steady states, growth rates, and the size of the pattern.
+
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "react/model.h"
+
+namespace pelage {
+
+/// Linear stability of the spatially uniform system, with the quantities of the place at their mean (noise and
+/// normal() at their mean, uniform() at its midpoint; coordinates, normals, curvatures and attributes at 0) and t = 0.
+/// Lengths and times in model units; wave numbers are 2 pi / wavelength.
+struct Stability {
+  std::vector<std::vector<double>> steady_states;  ///< all that were found, within the bounds of the species
+  std::size_t chosen = 0;         ///< the one nearest to the mean initial values; what follows is about it
+  std::vector<double> jacobian;   ///< dR_i/du_j at [i * n + j]
+  std::vector<double> diffusion;  ///< C0 * C1 of each species there
+  std::vector<std::complex<double>> eigenvalues;  ///< of the Jacobian, largest real part first
+
+  std::optional<double> wavelength;  ///< 2 pi / k where growth(k) has its highest interior maximum, if it has one
+  double growth = 0;                 ///< largest real part of sigma: at that wavelength, else over all k
+  bool oscillatory = false;          ///< sigma is complex there
+  std::optional<double> band_min, band_max;  ///< wave numbers around it that grow; none if it does not grow
+};
+
+/// Analyses a model; the steady states are those that Newton's method reaches from some hundred starts. When there is
+/// none, `steady_states` and all else stay empty.
+Stability analyse(const Model& model);
+
+/// The eigenvalue of J - k^2 D with the largest real part: growth rate and angular frequency of waves exp(i k x).
+std::complex<double> growth_rate(const Stability& stability, double wave_number);
+
+/// Spacing of the pattern in model length units: the measured one of the model's file, otherwise the critical
+/// wavelength of the linear analysis. Error(usage) if there is neither.
+double model_wavelength(const Model& model);
+
+}  // namespace pelage

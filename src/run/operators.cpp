@@ -1,0 +1,151 @@
+#include "run/operators.h"
+
+#include <algorithm>
+
+#include "pelage/error.h"
+
+namespace pelage {
+
+namespace {
+
+/// At least so many control vertices per wavelength: Loop elements then represent a sine to better than a percent.
+constexpr double vertices_per_wavelength = 6;
+
+/// A finer mesh would need more than the memory of common machines: about 2 kB per Loop vertex.
+constexpr std::size_t max_triangles = 8'000'000;
+
+void report(const Progress& progress, std::string_view what, double fraction) {
+  if (progress && !progress(what, fraction)) throw Error(Fault::cancelled, "cancelled");
+}
+
+Places places_of(const std::vector<Point>& position, const std::vector<Point>& normal, double length_unit) {
+  Places places;
+  places.positions = position;
+  places.normals = normal;
+  places.length_unit = length_unit;
+  return places;
+}
+
+std::vector<const double*> pointers(const std::vector<Vector>& fields) {
+  std::vector<const double*> result;
+  for (const Vector& f : fields) result.push_back(f.data());
+  return result;
+}
+
+}  // namespace
+
+Operators::Operators(const Program& program, const Progress& progress)
+    : model_(program.model), length_unit_(program.length_unit) {
+  const bool loop = program.method == "loop";
+  report(progress, "refining", 0);
+  RefinedMesh mesh;
+  mesh.topology = make_topology(program.shape.points.size(), program.shape.triangles);
+  mesh.control = program.shape.points;
+  if (program.interpolate && loop)
+    mesh.control = interpolating_control(loop_discretisation(mesh.topology), program.shape.points);
+  mesh = refine_to_edge(std::move(mesh), program.size / vertices_per_wavelength, loop, max_triangles);
+  levels_ = mesh.levels;
+  control_ = std::move(mesh.control);
+  report(progress, "tabulating basis functions", 0.2);
+  discretisation_ = std::make_unique<Discretisation>(make_discretisation(program.method, std::move(mesh.topology)));
+  report(progress, "assembling", 0.4);
+  assembler_ = std::make_unique<Assembler>(*discretisation_);
+  mass_ = assembler_->mass(control_);
+  stiffness_ = assembler_->stiffness(control_);
+  report(progress, "sampling", 0.8);
+  if (program.stepper == "paper") {  // the scheme of the paper integrates its reaction matrices by quadrature
+    sampling_ = quadrature_sampling(*discretisation_, control_);
+  } else {
+    sampling_ = vertex_sampling(*discretisation_, control_, mass_);
+    mass_ = sampled_mass(sampling_, mass_.pattern);
+  }
+  kinetics_ =
+      std::make_unique<Kinetics>(model_, places_of(sampling_.position, sampling_.normal, length_unit_), program.seed);
+  build_species(program);
+}
+
+bool Operators::diffusion_varies_in_time(std::size_t i) const {
+  return (model_.diffusion_dependence(i) & ~static_cast<unsigned>(on_place)) != 0;
+}
+
+void Operators::build_species(const Program& program) {
+  const double scale = length_unit_ * length_unit_;  // model length^2 to world length^2
+  system_.mass = &mass_;
+  system_.sampling = &sampling_;
+  variable_.resize(model_.species_count());
+  for (std::size_t i = 0; i < model_.species_count(); ++i) {
+    Species s;
+    s.name = model_.species_name(i);
+    s.lower = model_.lower(i);
+    s.upper = model_.upper(i);
+    s.stiffness = &stiffness_;
+    s.diffusion = scale;
+    if (const auto constant = model_.diffusion_constant(i)) {
+      s.diffusion *= *constant;
+    } else {
+      if (!quadrature_kinetics_) {
+        const QuadratureGeometry g = quadrature_geometry(*discretisation_, control_);
+        quadrature_kinetics_ =
+            std::make_unique<Kinetics>(model_, places_of(g.position, g.normal, length_unit_), program.seed);
+        quadrature_values_ = quadrature_values(*discretisation_);
+      }
+      variable_[i] =
+          std::make_unique<SparseMatrix>(assembler_->stiffness(control_, diffusion_at_quadrature(i, nullptr)));
+      s.stiffness = variable_[i].get();
+    }
+    system_.species.push_back(s);
+  }
+  system_.reaction.rates = [this](const FieldPointers& u, double t, std::size_t begin, std::size_t end,
+                                  const MutableFieldPointers& rate) { kinetics_->rates(u, t, begin, end, rate); };
+  system_.reaction.split = [this](const FieldPointers& u, double t, std::size_t begin, std::size_t end,
+                                  const MutableFieldPointers& c2,
+                                  const MutableFieldPointers& c3) { kinetics_->split(u, t, begin, end, c2, c3); };
+  system_.weighted_mass = [this](const Vector& factor) {
+    return assembler_->mass(control_, std::vector<double>(factor.begin(), factor.end()));
+  };
+}
+
+/// C1 of one species; the initial state stands in for a missing one.
+std::vector<double> Operators::diffusion_at_quadrature(std::size_t species, const State* state) const {
+  const std::size_t count = quadrature_kinetics_->size();
+  std::vector<Vector> fields(model_.species_count(), Vector::Zero(static_cast<Eigen::Index>(count)));
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (state)
+      fields[i] = quadrature_values_ * state->now[i];
+    else
+      quadrature_kinetics_->initial(i, std::span<double>(fields[i].data(), count));
+  }
+  std::vector<std::vector<double>> c0(fields.size(), std::vector<double>(count)), c1 = c0;
+  std::vector<double*> c0_out, c1_out;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    c0_out.push_back(c0[i].data());
+    c1_out.push_back(c1[i].data());
+  }
+  quadrature_kinetics_->diffusion(pointers(fields), state ? state->time : 0, 0, count, c0_out, c1_out);
+  const std::string& name = model_.species_name(species);
+  if (std::any_of(c0[species].begin(), c0[species].end(), [](double c) { return c != 1; }))
+    throw Error(Fault::usage, "C0 of " + name + " varies; give it as a constant, or move it into C1");
+  if (!std::all_of(c1[species].begin(), c1[species].end(), [](double c) { return c >= 0; }))
+    throw Error(Fault::usage, "the diffusion of " + name + " is negative somewhere; it must be at least 0");
+  return std::move(c1[species]);
+}
+
+void Operators::update(const State& state) {
+  for (std::size_t i = 0; i < variable_.size(); ++i)
+    if (variable_[i] && diffusion_varies_in_time(i))
+      *variable_[i] = assembler_->stiffness(control_, diffusion_at_quadrature(i, &state));
+}
+
+std::vector<Vector> Operators::initial() const {
+  std::vector<Vector> coefficients;
+  const auto count = static_cast<std::size_t>(sampling_.count());
+  Vector samples(sampling_.count());
+  for (std::size_t i = 0; i < model_.species_count(); ++i) {
+    kinetics_->initial(i, std::span<double>(samples.data(), count));
+    coefficients.push_back(coefficients_from_samples(sampling_, mass_, samples));
+    coefficients.back() = coefficients.back().cwiseMax(model_.lower(i)).cwiseMin(model_.upper(i));
+  }
+  return coefficients;
+}
+
+}  // namespace pelage

@@ -1,0 +1,54 @@
+#pragma once
+// Discretisation, matrices and reaction of one stage, built once.
+
+#include <memory>
+
+#include "base/progress.h"
+#include "discretise/sampling.h"
+#include "react/kinetics.h"
+#include "run/program.h"
+#include "shape/refine.h"
+#include "time/system.h"
+
+namespace pelage {
+
+/// Not movable: the system points into it.
+class Operators {
+ public:
+  Operators(const Program& program, const Progress& progress);
+  Operators(const Operators&) = delete;
+  Operators& operator=(const Operators&) = delete;
+
+  const System& system() const { return system_; }
+  const Discretisation& discretisation() const { return *discretisation_; }
+  const std::vector<Point>& control() const { return control_; }
+  const SparseMatrix& stiffness() const { return stiffness_; }  ///< of unit diffusion
+  int levels() const { return levels_; }                        ///< refinements of the program's shape
+
+  /// Coefficients of the initial state.
+  std::vector<Vector> initial() const;
+
+  /// Brings operators that depend on time or on the fields up to date; to be called before every step.
+  void update(const State& state);
+
+ private:
+  void build_species(const Program& program);
+  std::vector<double> diffusion_at_quadrature(std::size_t species, const State* state) const;
+  bool diffusion_varies_in_time(std::size_t species) const;
+
+  Model model_;
+  double length_unit_ = 1;
+  int levels_ = 0;
+  std::vector<Point> control_;
+  std::unique_ptr<Discretisation> discretisation_;
+  std::unique_ptr<Assembler> assembler_;
+  Sampling sampling_;
+  SparseMatrix mass_, stiffness_;
+  std::unique_ptr<Kinetics> kinetics_;             ///< at the samples
+  std::unique_ptr<Kinetics> quadrature_kinetics_;  ///< at the quadrature points, for diffusion that varies
+  SparseMatrix quadrature_values_;
+  std::vector<std::unique_ptr<SparseMatrix>> variable_;  ///< stiffness of species whose diffusion varies
+  System system_;
+};
+
+}  // namespace pelage

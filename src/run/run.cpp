@@ -1,0 +1,243 @@
+#include "run/run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "pelage/error.h"
+
+namespace pelage {
+
+namespace {
+
+/// Local error per step, relative to the size of the fields, that the adaptive step keeps: spacing and look of finished
+/// patterns do not change with it from 1e-2 down.
+constexpr double step_tolerance = 1e-2;
+/// Steps change by this factor, so that matrices and their factors are seldom refilled.
+constexpr double step_factor = std::numbers::sqrt2;
+/// A start well inside the stable range of every shipped model.
+constexpr double first_step_fraction = 1.0 / 16;
+/// After halving so often there is no step that helps.
+constexpr int most_halvings = 30;
+/// The residual lies far below the change of one step, which the warm start would otherwise swallow.
+constexpr double solver_tolerance = 1e-7;
+
+bool adaptive(const Program& p) { return !p.step && p.stepper == "sbdf2"; }
+
+double first_step(const Program& p) {
+  if (p.step) return *p.step;
+  return adaptive(p) ? p.suggested_step * first_step_fraction : p.suggested_step;
+}
+
+}  // namespace
+
+Run::Run(Program program, const Progress& progress)
+    : program_(std::move(program)),
+      operators_(std::make_unique<Operators>(program_, progress)),
+      stepper_(make_stepper(program_.stepper)),
+      step_(first_step(program_)) {
+  state_.now = operators_->initial();
+  summary_.step = step_;
+  check_stop();
+}
+
+Run::~Run() = default;
+Run::Run(Run&&) noexcept = default;
+
+double Run::fraction() const {
+  if (done()) return 1;
+  double fraction = program_.until > 0 ? state_.time / program_.until : 0;
+  if (program_.steps)
+    fraction = std::max(fraction, static_cast<double>(state_.step) / static_cast<double>(*program_.steps));
+  return std::min(1.0, fraction);
+}
+
+/// The error does not see the limit of stability before it is passed, so that the step stays below the model's
+/// suggestion. The last step is cut to end on time; a rest below a thousandth of a step is joined to it.
+double Run::next_step() const {
+  const double rest = program_.until - state_.time;
+  return rest < step_ * 1.001 ? rest : step_;
+}
+
+const RunSummary& Run::advance(std::int64_t steps) {
+  int halvings = 0;
+  for (std::int64_t k = 0; k < steps && !done();) {
+    operators_->update(state_);
+    StepRequest request{.dt = next_step(), .solver_tolerance = solver_tolerance};
+    if (adaptive(program_)) request.largest_error = step_tolerance;
+    const StepReport report = stepper_->step(operators_->system(), state_, request);
+    summary_.iterations += report.iterations;
+    if (report.accepted) {
+      accept(report);
+      halvings = 0;
+      ++k;
+    } else if (adaptive(program_) && ++halvings <= most_halvings) {
+      ++summary_.rejected;
+      step_ = request.dt / 2;
+    } else {
+      fail(report);
+    }
+  }
+  return summary_;
+}
+
+void Run::accept(const StepReport& report) {
+  summary_.time = state_.time;
+  summary_.steps = state_.step;
+  summary_.minimum = report.minimum;
+  summary_.maximum = report.maximum;
+  summary_.change = report.change;
+  // The estimate grows with the third power of the step.
+  const double room = step_factor * step_factor * step_factor * 1.2;
+  if (adaptive(program_) && state_.past.size() > 1 && report.error * room < step_tolerance)
+    step_ = std::min(step_ * step_factor, program_.suggested_step);
+  summary_.step = step_;
+  check_stop();
+}
+
+void Run::check_stop() {
+  if (program_.steps && state_.step >= *program_.steps)
+    summary_.status = RunStatus::steps_reached;
+  else if (state_.time >= program_.until)
+    summary_.status = RunStatus::time_reached;
+  else if (state_.step > 0 && program_.stationary > 0 && summary_.change < program_.stationary)
+    summary_.status = RunStatus::stationary;
+}
+
+void Run::fail(const StepReport& report) {
+  summary_.status = RunStatus::failed;
+  summary_.message = "step " + std::to_string(state_.step + 1) + ", time " + std::to_string(state_.time) + ": " +
+                     report.failure + "; " +
+                     (program_.step ? "halve the step or leave it to the stepper"
+                                    : "check the parameters of the model, or give a smaller --step");
+}
+
+CoatFields Run::fields() const {
+  CoatFields f;
+  f.shape = program_.shape;
+  f.levels = operators_->levels();
+  f.loop = program_.method == "loop";
+  f.control = operators_->control();
+  f.wavelength = program_.size;
+  for (std::size_t i = 0; i < state_.now.size(); ++i) {
+    f.species.push_back(program_.model.species_name(i));
+    f.coefficients.emplace_back(state_.now[i].begin(), state_.now[i].end());
+  }
+  return f;
+}
+
+double measured_wavelength(const SparseMatrix& mass, const SparseMatrix& stiffness, const Vector& u) {
+  const Vector ones = Vector::Ones(u.size());
+  const Vector integral = mass * ones;
+  const Vector deviation = u.array() - dot(integral, u) / integral.sum();
+  return 2 * std::numbers::pi * std::sqrt(dot(deviation, mass * deviation) / dot(deviation, stiffness * deviation));
+}
+
+// --- checkpoints ----------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr char magic[] = "pelage checkpoint 1\n";
+
+class Writer {
+ public:
+  explicit Writer(std::string& out) : out_(out) {}
+  template <class T>
+  void number(T value) {
+    out_.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  void fields(const std::vector<Vector>& fields) {
+    number(static_cast<std::uint64_t>(fields.size()));
+    for (const Vector& f : fields) {
+      number(static_cast<std::uint64_t>(f.size()));
+      out_.append(reinterpret_cast<const char*>(f.data()), static_cast<std::size_t>(f.size()) * sizeof(double));
+    }
+  }
+
+ private:
+  std::string& out_;
+};
+
+class Reader {
+ public:
+  explicit Reader(const std::string& in) : in_(in) {}
+  void bytes(void* target, std::size_t count) {
+    if (count > in_.size() - at_) throw Error(Fault::input, "the checkpoint is cut short");
+    std::memcpy(target, in_.data() + at_, count);
+    at_ += count;
+  }
+  template <class T>
+  T number() {
+    T value;
+    bytes(&value, sizeof value);
+    return value;
+  }
+  std::vector<Vector> fields() {
+    std::vector<Vector> result(limited(number<std::uint64_t>()));
+    for (Vector& f : result) {
+      f.resize(static_cast<Eigen::Index>(limited(number<std::uint64_t>())));
+      bytes(f.data(), static_cast<std::size_t>(f.size()) * sizeof(double));
+    }
+    return result;
+  }
+  bool at_end() const { return at_ == in_.size(); }
+
+ private:
+  std::size_t limited(std::uint64_t count) const {  // every element takes at least eight bytes
+    if (count > (in_.size() - at_) / sizeof(double)) throw Error(Fault::input, "the checkpoint is damaged");
+    return static_cast<std::size_t>(count);
+  }
+  const std::string& in_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+std::string Run::checkpoint() const {
+  std::string out = magic;
+  Writer w(out);
+  w.number(state_.time);
+  w.number(state_.step);
+  w.number(step_);
+  w.number(summary_.change);
+  w.fields(state_.now);
+  w.number(static_cast<std::uint64_t>(state_.past.size()));
+  for (std::size_t k = 0; k < state_.past.size(); ++k) {
+    w.number(state_.past_steps[k]);
+    w.fields(state_.past[k]);
+  }
+  w.fields(state_.past_rates);
+  return out;
+}
+
+void Run::restore(const std::string& bytes) {
+  if (bytes.compare(0, sizeof magic - 1, magic) != 0) throw Error(Fault::input, "this is not a checkpoint");
+  const std::string body = bytes.substr(sizeof magic - 1);
+  Reader r(body);
+  State state;
+  state.time = r.number<double>();
+  state.step = r.number<std::int64_t>();
+  const double step = r.number<double>();
+  const double change = r.number<double>();
+  state.now = r.fields();
+  const auto depth = r.number<std::uint64_t>();
+  for (std::uint64_t k = 0; k < depth && k < 2; ++k) {
+    state.past_steps.push_back(r.number<double>());
+    state.past.push_back(r.fields());
+  }
+  state.past_rates = r.fields();
+  bool fits = r.at_end() && state.now.size() == state_.now.size();
+  for (std::size_t i = 0; fits && i < state.now.size(); ++i) fits = state.now[i].size() == state_.now[i].size();
+  if (!fits) throw Error(Fault::input, "the checkpoint belongs to another shape, size or model");
+  state_ = std::move(state);
+  step_ = step;
+  summary_ = {};
+  summary_.time = state_.time;
+  summary_.steps = state_.step;
+  summary_.step = step_;
+  summary_.change = change;
+  check_stop();
+}
+
+}  // namespace pelage

@@ -1,0 +1,81 @@
+#pragma once
+// The loop of the program: a stage from its initial state to its stop.
+
+#include <memory>
+#include <string>
+
+#include "base/progress.h"
+#include "look/dress.h"
+#include "run/operators.h"
+#include "run/program.h"
+#include "time/stepper.h"
+
+namespace pelage {
+
+/// How a run stands.
+enum class RunStatus {
+  running,
+  time_reached,
+  steps_reached,
+  stationary,
+  failed  ///< the fields blew up or a solve did not converge; see RunSummary::message
+};
+
+/// What has happened so far.
+struct RunSummary {
+  RunStatus status = RunStatus::running;
+  std::string message;  ///< of a failure: what, where, and what to do
+  double time = 0;      ///< model time
+  std::int64_t steps = 0;
+  double step = 0;                  ///< size of the next step
+  double change = 0;                ///< of the pattern per unit of time, relative to its amplitude
+  std::int64_t iterations = 0;      ///< of the linear solver since the start or resumption
+  std::int64_t rejected = 0;        ///< steps repeated with a smaller size
+  double minimum = 0, maximum = 0;  ///< of the coefficients of all species
+};
+
+class Run {
+ public:
+  /// Builds the operators and the initial state; throws Error as the parts do.
+  explicit Run(Program program, const Progress& progress = {});
+  ~Run();
+  Run(Run&&) noexcept;
+
+  bool done() const { return summary_.status != RunStatus::running; }
+  /// Up to `steps` steps, fewer if the run is done before.
+  const RunSummary& advance(std::int64_t steps);
+  const RunSummary& summary() const { return summary_; }
+  /// Fraction of the way to the end, as far as it is known.
+  double fraction() const;
+
+  const Program& program() const { return program_; }
+  const Operators& operators() const { return *operators_; }
+  const std::vector<Vector>& coefficients() const { return state_.now; }
+  /// A copy of the fields, to be dressed.
+  CoatFields fields() const;
+
+  /// Everything that changes, as bytes (little-endian doubles): a run of the same program that restores it continues
+  /// with the same bits.
+  std::string checkpoint() const;
+  /// Error(Fault::input) when the bytes are not a checkpoint of such a run.
+  void restore(const std::string& bytes);
+
+ private:
+  double next_step() const;
+  void accept(const StepReport& report);
+  void fail(const StepReport& report);
+  void check_stop();
+
+  Program program_;
+  std::unique_ptr<Operators> operators_;
+  std::unique_ptr<Stepper> stepper_;
+  State state_;
+  double step_ = 0;
+  RunSummary summary_;
+};
+
+/// 2 pi sqrt(<u', M u'> / <u', K u'>) with u' the deviation from the mean: the wavelength of a single wave, and between
+/// the wavelength of the spots and that of their harmonics for sharp spots. World units.
+double measured_wavelength(const SparseMatrix& mass, const SparseMatrix& stiffness, const Vector& u);
+
+}  // namespace pelage

@@ -1,0 +1,60 @@
+#include "base/parallel.h"
+#include "time/step_support.h"
+
+namespace pelage {
+
+namespace {
+
+/// Eqs. (5)-(8) of Bajaj, Zhang, Xu 2008, which (14)-(15) spell out for the Turing system:
+///   (M - dt M[C2(u^n)] + dt K) u^(n+1) = M u^n + dt load(C3(u^n))
+/// with every coefficient taken at step n, also for the species solved second. (The L_ij printed below (14) and (15)
+/// have two signs exchanged; the weak forms (14), (15) and eq. (10) agree with this.)
+class PaperStepper final : public Stepper {
+ public:
+  StepReport step(const System& system, State& state, const StepRequest& request) override {
+    const double dt = request.dt;
+    sample_fields(system, state.now, samples_);
+    split(system, state.time);
+    StepReport report;
+    next_ = state.now;
+    for (std::size_t i = 0; i < system.species.size() && report.failure.empty(); ++i) {
+      const Species& species = system.species[i];
+      const SparseMatrix reaction = system.weighted_mass(c2_[i]);
+      combine(1, *system.mass, -dt, reaction, matrix_);
+      combine(1, matrix_, dt * species.diffusion, *species.stiffness, matrix_);
+      const Vector b = *system.mass * state.now[i] + dt * load(*system.sampling, c3_[i]);
+      const Vector inverse_diagonal = diagonal(matrix_).cwiseInverse();
+      note_solve(solver_.solve(matrix_, inverse_diagonal, b, next_[i], {.tolerance = request.solver_tolerance}),
+                 species.name, report);
+    }
+    advance(system, state, dt, next_, report);
+    return report;
+  }
+
+ private:
+  void split(const System& system, double t) {
+    FieldPointers u;
+    MutableFieldPointers c2, c3;
+    c2_.resize(samples_.size());
+    c3_.resize(samples_.size());
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      c2_[i].resize(samples_[i].size());
+      c3_[i].resize(samples_[i].size());
+      u.push_back(samples_[i].data());
+      c2.push_back(c2_[i].data());
+      c3.push_back(c3_[i].data());
+    }
+    parallel_for(static_cast<std::size_t>(system.sampling->count()),
+                 [&](std::size_t begin, std::size_t end) { system.reaction.split(u, t, begin, end, c2, c3); });
+  }
+
+  SparseMatrix matrix_;
+  ConjugateGradient solver_;
+  std::vector<Vector> samples_, c2_, c3_, next_;
+};
+
+}  // namespace
+
+std::unique_ptr<Stepper> make_paper() { return std::make_unique<PaperStepper>(); }
+
+}  // namespace pelage

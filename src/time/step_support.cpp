@@ -1,0 +1,96 @@
+#include "time/step_support.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+
+namespace pelage {
+
+void sample_fields(const System& system, const std::vector<Vector>& coefficients, std::vector<Vector>& samples) {
+  samples.resize(coefficients.size());
+  for (std::size_t i = 0; i < coefficients.size(); ++i) apply(system.sampling->values, coefficients[i], samples[i]);
+}
+
+void evaluate_rates(const System& system, const std::vector<Vector>& samples, double t, std::vector<Vector>& rates) {
+  FieldPointers u;
+  MutableFieldPointers out;
+  rates.resize(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    rates[i].resize(samples[i].size());
+    u.push_back(samples[i].data());
+    out.push_back(rates[i].data());
+  }
+  parallel_for(static_cast<std::size_t>(system.sampling->count()),
+               [&](std::size_t begin, std::size_t end) { system.reaction.rates(u, t, begin, end, out); });
+}
+
+namespace {
+
+/// Number of the first coefficient that is not finite, or -1.
+Eigen::Index first_not_finite(const Vector& x) {
+  if (std::isfinite(dot(x, x))) return -1;
+  for (Eigen::Index i = 0; i < x.size(); ++i)
+    if (!std::isfinite(x[i]) || std::abs(x[i]) > 1e150) return i;
+  return -1;
+}
+
+}  // namespace
+
+void advance(const System& system, State& state, double dt, std::vector<Vector>& next, StepReport& report) {
+  report.minimum = std::numeric_limits<double>::infinity();
+  report.maximum = -report.minimum;
+  report.change = 0;
+  for (std::size_t i = 0; i < next.size(); ++i) {
+    const Species& species = system.species[i];
+    const Eigen::Index bad = first_not_finite(next[i]);
+    if (bad >= 0 && report.failure.empty())
+      report.failure = species.name + " is not finite at vertex " + std::to_string(bad);
+    if (!report.failure.empty()) return;
+    next[i] = next[i].cwiseMax(species.lower).cwiseMin(species.upper);
+    report.minimum = std::min(report.minimum, next[i].minCoeff());
+    report.maximum = std::max(report.maximum, next[i].maxCoeff());
+    const Vector difference = next[i] - state.now[i];
+    const Vector deviation = next[i].array() - next[i].mean();
+    const double amplitude = std::sqrt(dot(deviation, deviation)), moved = std::sqrt(dot(difference, difference));
+    if (moved > 0) report.change = std::max(report.change, moved / (amplitude * dt));
+  }
+  std::swap(state.now, next);
+  state.past.insert(state.past.begin(), std::move(next));
+  state.past_steps.insert(state.past_steps.begin(), dt);
+  if (state.past.size() > 2) {
+    next = std::move(state.past.back());  // its memory serves the next step
+    state.past.pop_back();
+    state.past_steps.pop_back();
+  }
+  state.time += dt;
+  ++state.step;
+  report.accepted = true;
+}
+
+void StepMatrix::update(const SparseMatrix& mass, double alpha, const SparseMatrix& stiffness, double beta) {
+  if (alpha == alpha_ && beta == beta_ && matrix_.pattern == mass.pattern) return;
+  combine(alpha, mass, beta, stiffness, matrix_);
+  inverse_diagonal_ = diagonal(matrix_).cwiseInverse();
+  // Vertices without triangles have empty rows.
+  for (double& d : inverse_diagonal_)
+    if (!std::isfinite(d)) d = 1;
+  alpha_ = alpha;
+  beta_ = beta;
+}
+
+void StepMatrix::solve(const Vector& b, Vector& x, const std::string& species, double tolerance, StepReport& report) {
+  note_solve(solver_.solve(matrix_, inverse_diagonal_, b, x, {.tolerance = tolerance}), species, report);
+}
+
+void note_solve(const SolveReport& solve, const std::string& species, StepReport& report) {
+  report.iterations += solve.iterations;
+  report.residual = std::max(report.residual, solve.residual);
+  if (!report.failure.empty()) return;
+  if (!solve.positive_definite)
+    report.failure = "the matrix of " + species + " is not positive definite: the step is too large";
+  else if (!solve.converged)
+    report.failure = "the solve for " + species + " did not converge (residual " + std::to_string(solve.residual) + ")";
+}
+
+}  // namespace pelage

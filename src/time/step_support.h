@@ -1,0 +1,34 @@
+#pragma once
+// What all steppers share.
+
+#include "linalg/conjugate_gradient.h"
+#include "time/stepper.h"
+
+namespace pelage {
+
+/// Fields at the samples.
+void sample_fields(const System& system, const std::vector<Vector>& coefficients, std::vector<Vector>& samples);
+
+/// Reaction rates at the samples.
+void evaluate_rates(const System& system, const std::vector<Vector>& samples, double t, std::vector<Vector>& rates);
+
+/// Moves the state to `next` (applying the clamps) unless it is not finite, and fills in change, minimum and maximum.
+void advance(const System& system, State& state, double dt, std::vector<Vector>& next, StepReport& report);
+
+/// alpha M + beta K_i for one species, kept while alpha and beta stay the same.
+class StepMatrix {
+ public:
+  void update(const SparseMatrix& mass, double alpha, const SparseMatrix& stiffness, double beta);
+  /// Solves for one right-hand side; x holds the first guess. Updates iterations, residual and failure of the report.
+  void solve(const Vector& b, Vector& x, const std::string& species, double tolerance, StepReport& report);
+
+ private:
+  SparseMatrix matrix_;
+  Vector inverse_diagonal_;
+  double alpha_ = 0, beta_ = -1;
+  ConjugateGradient solver_;
+};
+
+void note_solve(const SolveReport& solve, const std::string& species, StepReport& report);
+
+}  // namespace pelage

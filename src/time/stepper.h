@@ -1,0 +1,48 @@
+#pragma once
+// Time steppers. Numerics answer with data: a step that fails says so in its report and leaves the state as it was.
+
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "time/system.h"
+
+namespace pelage {
+
+struct StepReport {
+  bool accepted = false;  ///< the state has advanced
+  std::string failure;    ///< why it has not; empty when only the error estimate was too large
+  int iterations = 0;     ///< of the linear solver, all species together
+  double residual = 0;    ///< relative, the largest of all species
+  double error = 0;       ///< estimated local error relative to the size of the fields; 0 when unknown
+  double change = 0;      ///< of the pattern per unit of time: root mean square of du/dt over that of the deviation
+                          ///< from the mean, the largest of all species. A growing pattern changes by its growth
+                          ///< rate however faint it is; only a finished one comes to rest.
+  double minimum = 0, maximum = 0;  ///< over the coefficients of all species
+};
+
+struct StepRequest {
+  double dt = 0;
+  double largest_error = std::numeric_limits<double>::infinity();  ///< reject the step above this estimate
+  double solver_tolerance = 1e-10;
+};
+
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+  virtual StepReport step(const System& system, State& state, const StepRequest& request) = 0;
+};
+
+/// By name:
+///   "sbdf2"     second-order semi-implicit backward differences, variable step (Ruuth 1995; Wang, Ruuth 2008)
+///   "paper"     eqs. (14)-(15) of Bajaj, Zhang, Xu 2008: reaction split as C2(u^n) u^(n+1) + C3(u^n), first order
+///   "explicit"  forward Euler
+/// Error(Fault::usage) otherwise.
+std::unique_ptr<Stepper> make_stepper(const std::string& name);
+std::vector<std::string> stepper_names();
+
+std::unique_ptr<Stepper> make_sbdf2();
+std::unique_ptr<Stepper> make_paper();
+std::unique_ptr<Stepper> make_explicit();
+
+}  // namespace pelage

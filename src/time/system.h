@@ -1,0 +1,59 @@
+#pragma once
+// What a stepper sees: the semi-discrete system  M du_i/dt = -K_i u_i + load(R_i(u, t)),  one row per species i,
+// the generalised PDE (2) of Bajaj, Zhang, Xu 2008 after discretisation in space, and the state that it advances.
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "discretise/sampling.h"
+#include "linalg/sparse.h"
+
+namespace pelage {
+
+/// Values of all species at the same samples: one pointer per species.
+using FieldPointers = std::vector<const double*>;
+using MutableFieldPointers = std::vector<double*>;
+
+/// The reaction at samples [begin, end) at time t; called from several threads for disjoint ranges.
+struct Reaction {
+  /// rate[i][s] = R_i(u_s, t).
+  std::function<void(const FieldPointers& u, double t, std::size_t begin, std::size_t end,
+                     const MutableFieldPointers& rate)>
+      rates;
+  /// R_i = c2_i u_i + c3_i, the split of eq. (2) that the paper's semi-implicit scheme needs.
+  std::function<void(const FieldPointers& u, double t, std::size_t begin, std::size_t end,
+                     const MutableFieldPointers& c2, const MutableFieldPointers& c3)>
+      split;
+};
+
+struct Species {
+  std::string name;
+  double diffusion = 0;  ///< D >= 0 [length^2/time]; multiplies `stiffness`
+  const SparseMatrix* stiffness = nullptr;
+  double lower = -std::numeric_limits<double>::infinity();  ///< clamps of the coefficients after a step; as the basis
+  double upper = std::numeric_limits<double>::infinity();   ///< functions are non-negative they bound the field too
+};
+
+/// Borrowed for one step.
+struct System {
+  const SparseMatrix* mass = nullptr;  ///< = values' W values of `sampling`
+  const Sampling* sampling = nullptr;
+  std::vector<Species> species;
+  Reaction reaction;
+  /// Mass matrix weighted by a factor at the samples; only the semi-implicit stepper of the paper needs it.
+  std::function<SparseMatrix(const Vector& factor)> weighted_mass;
+};
+
+/// The only thing that a run changes; what a checkpoint stores.
+struct State {
+  double time = 0;
+  std::int64_t step = 0;
+  std::vector<Vector> now;                ///< coefficients per species
+  std::vector<std::vector<Vector>> past;  ///< up to two earlier states, the latest first
+  std::vector<double> past_steps;         ///< past_steps[k]: time between states k and k+1 back
+  std::vector<Vector> past_rates;         ///< reaction at the latest earlier state, at the samples (SBDF2)
+};
+
+}  // namespace pelage

@@ -1,0 +1,150 @@
+#include "react/stability.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "catalog/models.h"
+#include "react/support.h"
+
+namespace pelage {
+namespace {
+
+using std::numbers::pi;
+
+Stability analyse_model(const std::string& name, const Overrides& overrides = {}) {
+  return analyse(compile(load_model(name), overrides));
+}
+
+TEST(Stability, TuringIsMarginalAtRatioFour) {
+  for (const double s : {0.025, 0.0375, 0.05, 0.003125}) {
+    const Stability stability = analyse_model("turing", {{"s", s}});
+    ASSERT_EQ(stability.steady_states.size(), 1u);
+    EXPECT_NEAR(stability.steady_states[0][0], 4, 1e-12);
+    EXPECT_NEAR(stability.steady_states[0][1], 4, 1e-12);
+    const double expected[] = {-4 * s, -4 * s, 4 * s, 3 * s};
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(stability.jacobian[k], expected[k], 1e-13);
+    ASSERT_TRUE(stability.wavelength);
+    EXPECT_NEAR(*stability.wavelength, 2 * pi * std::sqrt(0.03125 / s), 1e-5);
+    EXPECT_NEAR(stability.growth, 0, 1e-12);
+    EXPECT_FALSE(stability.oscillatory);
+    EXPECT_FALSE(stability.band_min);
+  }
+}
+
+TEST(Stability, TuringDispersionHasTheDeterminantOfTheTheory) {
+  const double Db = 0.03125, s = 0.05;
+  const Stability stability = analyse_model("turing");
+  for (const double k : {0.1, 0.5, 1.0, 1.4, 3.0}) {
+    // sigma^2 - trace sigma + det = 0 with det = 4 (Db k^2 - s)^2
+    const std::complex<double> sigma = growth_rate(stability, k);
+    const double trace = -s - 5 * Db * k * k, det = 4 * std::pow(Db * k * k - s, 2);
+    EXPECT_NEAR(std::abs(sigma * sigma - trace * sigma + det), 0, 1e-15 + 1e-12 * det);
+  }
+}
+
+TEST(Stability, TuringBandAboveRatioFour) {
+  const double s = 0.05, Db = 0.03125, Da = 4.5 * Db;
+  const Stability stability = analyse_model("turing:production");
+  // det = Da Db q^2 + (4 Db - 3 Da) s q + 4 s^2 is negative between its roots.
+  const double b = (4 * Db - 3 * Da) * s, root = std::sqrt(b * b - 16 * Da * Db * s * s);
+  ASSERT_TRUE(stability.band_min && stability.band_max);
+  EXPECT_NEAR(std::pow(*stability.band_min, 2), (-b - root) / (2 * Da * Db), 1e-9);
+  EXPECT_NEAR(std::pow(*stability.band_max, 2), (-b + root) / (2 * Da * Db), 1e-9);
+  EXPECT_GT(stability.growth, 0);
+}
+
+TEST(Stability, NoPatternWhenDiffusionsAreExchanged) {
+  const Model model = compile(load_model("turing"), {{"Da", 0.03125}, {"Db", 0.125}});
+  EXPECT_FALSE(analyse(model).wavelength);
+  EXPECT_NE(error_of([&] { model_wavelength(model); }).find("no wavelength"), std::string::npos);
+}
+
+/// Fastest wave number squared of two species, where d sigma / d q = 0: with c the mixed and a the diagonal entries,
+/// (D2 - D1) q + a11 - a22 = +- (D1 + D2) sqrt(-a12 a21 / (D1 D2)), the sign being that of D2 - D1.
+double fastest_q(const std::vector<double>& J, double D1, double D2) {
+  const double side = (D2 > D1 ? 1 : -1) * (D1 + D2) * std::sqrt(-J[1] * J[2] / (D1 * D2));
+  return (side - (J[0] - J[3])) / (D2 - D1);
+}
+
+TEST(Stability, SchnakenbergAgreesWithClosedForms) {
+  for (const double d : {10.0, 20.0, 40.0}) {
+    const double a = 0.1, b = 0.9, u = a + b, v = b / (u * u);
+    const Stability stability = analyse_model("schnakenberg", {{"d", d}});
+    ASSERT_EQ(stability.steady_states.size(), 1u);
+    EXPECT_NEAR(stability.steady_states[0][0], u, 1e-12);
+    EXPECT_NEAR(stability.steady_states[0][1], v, 1e-12);
+    const std::vector<double> J = {-1 + 2 * u * v, u * u, -2 * u * v, -u * u};
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(stability.jacobian[k], J[k], 1e-12);
+    ASSERT_TRUE(stability.wavelength);
+    const double q = fastest_q(J, 1, d);
+    EXPECT_NEAR(*stability.wavelength, 2 * pi / std::sqrt(q), 1e-5);
+    const double trace = J[0] + J[3] - (1 + d) * q, det = (J[0] - q) * (J[3] - d * q) - J[1] * J[2];
+    EXPECT_NEAR(stability.growth, (trace + std::sqrt(trace * trace - 4 * det)) / 2, 1e-12);
+  }
+  // d_c where d J11 + J22 = 2 sqrt(d det J): growth 0 at k_c^2 = sqrt(det J / d).
+  const double critical = std::pow((1 + std::sqrt(1.8)) / 0.8, 2);
+  const Stability onset = analyse_model("schnakenberg", {{"d", critical}});
+  EXPECT_NEAR(onset.growth, 0, 1e-9);
+  EXPECT_NEAR(*onset.wavelength, 2 * pi / std::pow(1 / critical, 0.25), 1e-4);
+}
+
+TEST(Stability, BrusselatorThreshold) {
+  // Turing threshold Dv / Du = A^2 / (sqrt(B) - 1)^2.
+  const double threshold = 4 / std::pow(std::sqrt(3.0) - 1, 2);
+  EXPECT_GT(analyse_model("brusselator", {{"Dv", 1.01 * threshold}}).growth, 0);
+  EXPECT_LT(analyse_model("brusselator", {{"Dv", 0.99 * threshold}}).growth, 0);
+  // Hopf threshold B = 1 + A^2.
+  const Stability oscillating = analyse_model("brusselator", {{"B", 5.5}, {"Dv", 1}});
+  EXPECT_GT(oscillating.growth, 0);
+  EXPECT_TRUE(oscillating.oscillatory);
+  EXPECT_FALSE(oscillating.wavelength);
+}
+
+TEST(Stability, GrayScottFindsItsThreeStates) {
+  // F = 0.03, k = 0.05: u = (1 +- sqrt(1 - 4 (F + k)^2 / F)) / 2 beside (1, 0).
+  const Stability stability = analyse_model("gray-scott", {{"F", 0.03}, {"k", 0.05}});
+  EXPECT_EQ(stability.steady_states.size(), 3u);
+  EXPECT_NEAR(stability.steady_states[stability.chosen][0], 1, 1e-9);
+  EXPECT_NEAR(stability.steady_states[stability.chosen][1], 0, 1e-9);
+  EXPECT_FALSE(stability.wavelength);  // that of the file is measured
+  const double u = (1 - std::sqrt(1 - 4 * 0.08 * 0.08 / 0.03)) / 2;
+  int found = 0;
+  for (const auto& state : stability.steady_states) found += std::fabs(state[0] - u) < 1e-9;
+  EXPECT_EQ(found, 1);
+}
+
+TEST(Stability, SpeciesWithoutDiffusion) {
+  const auto model = [](const char* text) { return compile(parse_model(text, "m.toml")); };
+  // A relaxing third species that does not diffuse changes neither threshold nor wavelength.
+  const Stability three = analyse(model(R"(
+name = "m"
+species.u = { diffusion = 1, rate = "0.1 - u + u^2*v + 0*w", initial = 1 }
+species.v = { diffusion = 40, rate = "0.9 - u^2*v", initial = 0.9 }
+species.w = { diffusion = 0, rate = "u - 2*w", initial = 0.5 }
+)"));
+  EXPECT_NEAR(*three.wavelength, *analyse_model("schnakenberg").wavelength, 1e-6);
+  EXPECT_FALSE(analyse(model("name='m'\nspecies.u={diffusion=0, rate='1 - u'}")).wavelength);
+}
+
+TEST(Stability, ConservedQuantitiesGiveALineOfStates) {
+  const Stability stability = analyse(compile(parse_model(
+      "name='m'\nspecies.u={diffusion=1, rate='v - u', initial=3}\nspecies.v={diffusion=1, rate='u - v', initial=1}",
+      "m.toml")));
+  EXPECT_GT(stability.steady_states.size(), 1u);
+  EXPECT_NEAR(stability.steady_states[stability.chosen][0], 2, 1e-9);
+}
+
+TEST(Stability, NoSteadyState) {
+  const Model model = compile(parse_model("name='m'\nspecies.u={diffusion=1, rate='1 + u^2'}", "m.toml"));
+  EXPECT_TRUE(analyse(model).steady_states.empty());
+}
+
+TEST(Stability, FileWavelengthGoesFirst) {
+  ModelSource source = load_model("schnakenberg");
+  EXPECT_NEAR(model_wavelength(compile(source)), 14.9, 0.1);
+  source.wavelength = 11.5;
+  EXPECT_EQ(model_wavelength(compile(source)), 11.5);
+}
+
+}  // namespace
+}  // namespace pelage
