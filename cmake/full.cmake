@@ -13,17 +13,8 @@ find_library(TINYGLTF_LIBRARY tinygltf REQUIRED)
 target_link_libraries(pelage_core PUBLIC TBB::tbb)
 target_compile_definitions(pelage_core PUBLIC $<BUILD_INTERFACE:PELAGE_HAS_TBB>)
 
-if(PELAGE_WITH_CHOLMOD)
-  find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
-  find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
-  target_sources(pelage_core PRIVATE src/linalg/cholmod.cpp)
-  target_include_directories(pelage_core SYSTEM PRIVATE ${CHOLMOD_INCLUDE_DIR})
-  target_link_libraries(pelage_core PUBLIC ${CHOLMOD_LIBRARY})
-  target_compile_definitions(pelage_core PRIVATE PELAGE_HAS_CHOLMOD)
-endif()
-
 # --- the library: core + files + pictures + catalogue ---------------------------------------------------
-file(GLOB full_sources CONFIGURE_DEPENDS src/recipe/*.cpp src/io/*.cpp src/look/*.cpp src/catalog/*.cpp)
+file(GLOB full_sources CONFIGURE_DEPENDS src/recipe/*.cpp src/io/*.cpp src/look/*.cpp src/verify/*.cpp src/catalog/*.cpp)
 
 # models/*.toml and recipes/*.toml are compiled in, so that the program needs no data directory.
 file(GLOB data_files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
@@ -51,6 +42,7 @@ if(cli_sources)
   add_executable(pelage_cli ${cli_sources})
   set_target_properties(pelage_cli PROPERTIES OUTPUT_NAME pelage)
   target_include_directories(pelage_cli PRIVATE src)
+  target_compile_definitions(pelage_cli PRIVATE PELAGE_VERSION="${PROJECT_VERSION}")
   target_link_libraries(pelage_cli PRIVATE pelage CLI11::CLI11 nlohmann_json::nlohmann_json Eigen3::Eigen pelage_flags)
   install(TARGETS pelage_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()

@@ -1,7 +1,10 @@
 #include "run/operators.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "base/random.h"
+#include "linalg/conjugate_gradient.h"
 #include "pelage/error.h"
 
 namespace pelage {
@@ -134,6 +137,18 @@ void Operators::update(const State& state) {
   for (std::size_t i = 0; i < variable_.size(); ++i)
     if (variable_[i] && diffusion_varies_in_time(i))
       *variable_[i] = assembler_->stiffness(control_, diffusion_at_quadrature(i, &state));
+}
+
+double Operators::largest_k2() const {
+  Vector x(stiffness_.rows());
+  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = 2 * uniform(0, static_cast<std::uint64_t>(i)) - 1;
+  double k2 = 0;
+  for (int iteration = 0; iteration < 25; ++iteration) {
+    const Vector y = solve_spd(mass_, stiffness_ * x, {.tolerance = 1e-4});
+    k2 = std::sqrt(dot(y, y) / dot(x, x));
+    x = y / std::sqrt(dot(y, y));
+  }
+  return 1.1 * k2;  // power iteration comes from below
 }
 
 std::vector<Vector> Operators::initial() const {

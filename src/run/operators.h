@@ -25,6 +25,9 @@ class Operators {
   const SparseMatrix& stiffness() const { return stiffness_; }  ///< of unit diffusion
   int levels() const { return levels_; }                        ///< refinements of the program's shape
 
+  /// An upper estimate of the largest k^2 that the mesh carries: of K x = k^2 M x, by power iteration [1 / world^2].
+  double largest_k2() const;
+
   /// Coefficients of the initial state.
   std::vector<Vector> initial() const;
 

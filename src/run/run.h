@@ -48,6 +48,9 @@ class Run {
   /// Fraction of the way to the end, as far as it is known.
   double fraction() const;
 
+  /// Largest step that linear analysis allows the "paper" and "explicit" steppers [model time]; infinite for others.
+  double stable_step() const { return stable_step_; }
+
   const Program& program() const { return program_; }
   const Operators& operators() const { return *operators_; }
   const std::vector<Vector>& coefficients() const { return state_.now; }
@@ -70,6 +73,7 @@ class Run {
   std::unique_ptr<Operators> operators_;
   std::unique_ptr<Stepper> stepper_;
   State state_;
+  double stable_step_ = 0;
   double step_ = 0;
   RunSummary summary_;
 };

@@ -40,15 +40,15 @@ ExactSolution on_sphere() {
   return s;
 }
 
-constexpr double torus_major = 1, torus_minor = 0.4;  // of the built-in torus, whose axis is y
+constexpr double torus_major = 1, torus_minor = 0.4;  // of the built-in torus, whose axis is z
 
 struct TorusAngles {
   double theta, phi;  ///< around the tube, around the axis
 };
 
 TorusAngles torus_angles(const Point& p) {
-  const double rho = std::hypot(p[0], p[2]);
-  return {std::atan2(p[1], rho - torus_major), std::atan2(p[2], p[0])};
+  const double rho = std::hypot(p[0], p[1]);
+  return {std::atan2(p[2], rho - torus_major), std::atan2(p[1], p[0])};
 }
 
 /// u = sin(2 phi) cos(theta) + sin(theta) on the torus.
@@ -74,8 +74,8 @@ ExactSolution on_torus() {
     const double along_theta = (-std::sin(2 * phi) * std::sin(theta) + std::cos(theta)) / torus_minor;
     const double along_phi = 2 * std::cos(2 * phi) * std::cos(theta) / radius;
     return Point{-along_theta * std::sin(theta) * std::cos(phi) - along_phi * std::sin(phi),
-                 along_theta * std::cos(theta),
-                 -along_theta * std::sin(theta) * std::sin(phi) + along_phi * std::cos(phi)};
+                 -along_theta * std::sin(theta) * std::sin(phi) + along_phi * std::cos(phi),
+                 along_theta * std::cos(theta)};
   };
   return s;
 }

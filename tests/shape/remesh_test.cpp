@@ -4,7 +4,7 @@
 
 #include "shape/generators.h"
 #include "support/mesh_facts.h"
-#include "support/triangulations.h"
+#include "verify/triangulations.h"
 
 namespace pelage {
 namespace {
@@ -15,11 +15,11 @@ Point to_sphere(const Point& p) {
 }
 
 TEST(Remesh, MakesAnyTriangulationUniform) {
-  using enum testing::Triangulation;
-  for (testing::Triangulation kind : {uniform, graded, slivers})
+  using enum Triangulation;
+  for (Triangulation kind : {uniform, graded, slivers})
     for (int n : {300, 3000}) {
       SCOPED_TRACE(n);
-      const TriangleMesh mesh = remesh(testing::unit_sphere(kind, 2000), static_cast<std::size_t>(n), to_sphere);
+      const TriangleMesh mesh = remesh(unit_sphere(kind, 2000), static_cast<std::size_t>(n), to_sphere);
       const testing::MeshFacts facts = testing::mesh_facts(mesh);
       EXPECT_NEAR(static_cast<double>(mesh.points.size()), n, 0.1 * n);
       EXPECT_EQ(facts.euler, 2);
@@ -48,12 +48,12 @@ TEST(Remesh, KeepsTheHoleOfARingThatIsThinnerThanItsEdges) {
 }
 
 TEST(Triangulations, AreWhatTheirNamesSay) {
-  const auto uniform = testing::mesh_facts(testing::unit_sphere(testing::Triangulation::uniform, 4000));
+  const auto uniform = testing::mesh_facts(unit_sphere(Triangulation::uniform, 4000));
   EXPECT_LT(uniform.longest_edge / uniform.shortest_edge, 1.5);
-  const auto graded = testing::mesh_facts(testing::unit_sphere(testing::Triangulation::graded, 4000));
+  const auto graded = testing::mesh_facts(unit_sphere(Triangulation::graded, 4000));
   EXPECT_NEAR(graded.longest_edge / graded.shortest_edge, 10, 3);
   EXPECT_GT(graded.smallest_angle, 40);
-  const auto slivers = testing::mesh_facts(testing::unit_sphere(testing::Triangulation::slivers, 4000));
+  const auto slivers = testing::mesh_facts(unit_sphere(Triangulation::slivers, 4000));
   EXPECT_LT(slivers.smallest_angle, 6);
   for (const auto& facts : {uniform, graded, slivers}) {
     EXPECT_EQ(facts.euler, 2);

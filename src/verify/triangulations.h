@@ -3,7 +3,7 @@
 
 #include "pelage/triangle_mesh.h"
 
-namespace pelage::testing {
+namespace pelage {
 
 enum class Triangulation {
   uniform,  ///< nearly equal, nearly equilateral
@@ -14,4 +14,4 @@ enum class Triangulation {
 /// The unit sphere with about n vertices, all exactly on it; closed, oriented outward.
 TriangleMesh unit_sphere(Triangulation triangulation, int n);
 
-}  // namespace pelage::testing
+}  // namespace pelage

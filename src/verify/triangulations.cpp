@@ -1,4 +1,4 @@
-#include "support/triangulations.h"
+#include "verify/triangulations.h"
 
 #include <Eigen/Core>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "shape/generators.h"
 #include "shape/topology.h"
 
-namespace pelage::testing {
+namespace pelage {
 
 namespace {
 
@@ -56,4 +56,4 @@ TriangleMesh unit_sphere(Triangulation triangulation, int n) {
   return mesh;
 }
 
-}  // namespace pelage::testing
+}  // namespace pelage

@@ -1,0 +1,94 @@
+#include "linalg/conjugate_gradient.h"
+
+#include <gtest/gtest.h>
+
+#include "base/parallel.h"
+#include "pelage/error.h"
+#include "support/random_matrices.h"
+
+namespace pelage {
+namespace {
+
+using testing::chain;
+using testing::dense;
+using testing::random_vector;
+
+TEST(ConjugateGradient, AgreesWithDenseCholesky) {
+  SparseMatrix a = chain(80, 2.05);
+  for (std::int32_t i = 0; i < 80; ++i) {  // scaled from both sides, so that the preconditioner has something to do
+    const double scale = 1 + i % 7;
+    for (auto k = a.pattern->start[i]; k < a.pattern->start[i + 1]; ++k)
+      a.value[static_cast<std::size_t>(k)] *= scale * (1 + a.pattern->column[static_cast<std::size_t>(k)] % 7);
+  }
+  const Vector b = random_vector(80, 1);
+  const Vector expected = dense(a).llt().solve(b);
+  const Vector x = solve_spd(a, b, {.tolerance = 1e-13});
+  EXPECT_LT((x - expected).norm(), 1e-10 * expected.norm());
+}
+
+TEST(ConjugateGradient, EndsAfterAsManyStepsAsThereAreUnknowns) {
+  const SparseMatrix a = chain(12, 3);
+  Vector x = Vector::Zero(12);
+  const SolveReport report =
+      ConjugateGradient().solve(a, diagonal(a).cwiseInverse(), random_vector(12, 2), x, {.tolerance = 1e-13});
+  EXPECT_TRUE(report.converged);
+  EXPECT_LE(report.iterations, 12);
+}
+
+TEST(ConjugateGradient, TheSolutionAsFirstGuessNeedsNoIteration) {
+  const SparseMatrix a = chain(50, 2.5);
+  const Vector b = random_vector(50, 3);
+  Vector x = solve_spd(a, b, {.tolerance = 1e-14});
+  EXPECT_EQ(ConjugateGradient().solve(a, diagonal(a).cwiseInverse(), b, x).iterations, 0);
+}
+
+TEST(ConjugateGradient, ZeroRightSideHasTheZeroSolution) {
+  const SparseMatrix a = chain(20, 2.5);
+  Vector x = random_vector(20, 4);
+  EXPECT_TRUE(ConjugateGradient().solve(a, diagonal(a).cwiseInverse(), Vector::Zero(20), x).converged);
+  EXPECT_EQ(x, Vector(Vector::Zero(20)));
+}
+
+TEST(ConjugateGradient, NoticesAMatrixThatIsNotPositiveDefinite) {
+  const SparseMatrix a = chain(50, 0.5);
+  Vector x = Vector::Zero(50);
+  const SolveReport report = ConjugateGradient().solve(a, diagonal(a).cwiseInverse(), random_vector(50, 5), x);
+  EXPECT_FALSE(report.positive_definite);
+  EXPECT_FALSE(report.converged);
+  EXPECT_THROW(solve_spd(a, random_vector(50, 5)), Error);
+}
+
+TEST(ConjugateGradient, SaysWhenItDoesNotConverge) {
+  const SparseMatrix a = chain(1000, 2 + 1e-6);
+  Vector x = Vector::Zero(1000);
+  const SolveReport report = ConjugateGradient().solve(a, diagonal(a).cwiseInverse(), random_vector(1000, 6), x,
+                                                       {.tolerance = 1e-12, .max_iterations = 10});
+  EXPECT_FALSE(report.converged);
+  EXPECT_TRUE(report.positive_definite);
+  EXPECT_EQ(report.iterations, 10);
+  EXPECT_GT(report.residual, 1e-12);
+}
+
+TEST(ConjugateGradient, SameBitsForAnyNumberOfThreads) {
+  const SparseMatrix a = chain(50000, 2.01);
+  const Vector b = random_vector(50000, 7);
+  const Vector all = solve_spd(a, b);
+  const ThreadLimit one(1);
+  EXPECT_EQ(solve_spd(a, b), all);
+}
+
+TEST(SolveGeneral, AgreesWithDenseElimination) {
+  SparseMatrix b = chain(90, 4);  // made unsymmetric
+  for (std::size_t k = 0; k < b.value.size(); ++k) b.value[k] += 0.5 * (uniform(9, k) - 0.5);
+  const Vector rhs = random_vector(90, 10);
+  EXPECT_LT((solve_general(b, rhs) - dense(b).partialPivLu().solve(rhs)).norm(), 1e-10);
+}
+
+TEST(SolveGeneral, RefusesASingularMatrix) {
+  SparseMatrix a = chain(10, 4);
+  for (auto k = a.pattern->start[5]; k < a.pattern->start[6]; ++k) a.value[static_cast<std::size_t>(k)] = 0;
+  EXPECT_THROW(solve_general(a, Vector::Ones(10)), Error);
+}
+
+}  // namespace
+}  // namespace pelage
