@@ -51,7 +51,9 @@ Encoding encoding_of(const std::string& property) {
 }
 
 std::vector<Column> list_columns(const TriangleMesh& mesh) {
-  std::set<std::string> used = {"x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "alpha", "s", "t"};
+  // Readers take u and v for texture coordinates, whereas here they are more likely two species.
+  std::set<std::string> used = {"x",    "y",     "z", "nx", "ny", "nz", "red",       "green",
+                                "blue", "alpha", "s", "t",  "u",  "v",  "texture_u", "texture_v"};
   std::vector<Column> columns;
   for (const Attribute& attribute : mesh.attributes) {
     const std::vector<std::string> names = property_names(attribute, used);

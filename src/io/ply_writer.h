@@ -12,7 +12,8 @@ namespace pelage {
 ///   nx ny nz            float, "normal"
 ///   red green blue      uchar, sRGB, "color" (and alpha, linear, from a fourth component)
 ///   s t                 float, "uv": the names that Blender and three.js read
-///   NAME or NAME_0 ...  float, any other attribute; characters other than letters, digits and _ become _
+///   NAME or NAME_0 ...  float, any other attribute; characters other than letters, digits and _ become _, and
+///                       a name that means something else to readers gets a _ at its end: u_, v_, x_
 /// Vertices are split where attributes at corners differ. Faces: property list uchar int vertex_indices.
 std::string encode_ply(const TriangleMesh& mesh);
 

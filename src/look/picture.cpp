@@ -105,7 +105,8 @@ Vector3f Painter::arriving(const Vector3f& origin, const Vector3f& direction, co
 /// Fresnel reflectance of hair and skin at a cosine (Schlick 1994), index of refraction about 1.5.
 float fresnel(float cosine) {
   constexpr float facing = 0.04F;
-  return facing + (1 - facing) * std::pow(1 - std::clamp(cosine, 0.0F, 1.0F), 5.0F);
+  const float x = 1 - std::clamp(cosine, 0.0F, 1.0F);
+  return facing + (1 - facing) * (x * x) * (x * x) * x;
 }
 
 /// Microfacet highlight for light of unit irradiance over pi (GGX; Walter et al. 2007, with the visibility term

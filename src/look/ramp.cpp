@@ -70,7 +70,7 @@ Ramp science_ramp() {
     const double t = static_cast<double>(i) / (count - 1);
     const double lightness = 0.25 + 0.67 * t;
     const double hue = (300 - 195 * t) * std::numbers::pi / 180;
-    const double chroma = 0.105 + 0.065 * t * t * t;  // about as much as the screen has at these hues
+    const double chroma = 0.088 + 0.082 * t * t * t;  // about as much as the screen has at these hues
     ramp.stops.push_back({t, linear_from_oklab({lightness, chroma * std::cos(hue), chroma * std::sin(hue)})});
   }
   return ramp;

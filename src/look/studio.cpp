@@ -43,7 +43,7 @@ float smooth_step(float low, float high, float x) {
 }  // namespace
 
 Studio::Studio(const Vector3f& back, const Vector3f& paper)
-    : key_(0.66F, 0.645F, 0.62F),  // a little warmer than the room, as tungsten against daylight
+    : key_(0.62F, 0.605F, 0.585F),  // a little warmer than the room, as tungsten against daylight
       paper_(paper),
       to_key_(lamp_direction(back, -42, 48)),
       to_rim_(lamp_direction(back, 140, 30)) {
@@ -57,7 +57,7 @@ Vector3f Studio::key_direction(const std::array<float, 2>& random) const {
 }
 
 Vector3f Studio::room(const Vector3f& direction) const {
-  const Vector3f wall(0.30F, 0.31F, 0.33F), ceiling(0.58F, 0.60F, 0.63F);
+  const Vector3f wall(0.30F, 0.31F, 0.33F), ceiling(0.53F, 0.55F, 0.57F);
   const float height = std::clamp(direction.y(), 0.0F, 1.0F);
   const float rim = smooth_step(0.80F, 0.97F, direction.dot(to_rim_));
   return wall + height * (ceiling - wall) + Vector3f::Constant(1.6F * rim);

@@ -1,0 +1,49 @@
+#include "io/png_writer.h"
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#include <stb_image.h>
+#pragma GCC diagnostic pop
+
+#include "base/srgb.h"
+#include "io/written_meshes.h"
+#include "pelage/error.h"
+
+namespace pelage {
+namespace {
+
+TEST(PngWriter, ReadsBackAsSrgbTopRowFirst) {
+  Image image{7, 5, {}};
+  for (int i = 0; i < 3 * 7 * 5; ++i) image.rgb.push_back(static_cast<float>(i) / 100 - 0.02F);
+  const std::string path = (test::fresh_folder() / "a.png").string();
+  write_png(image, path);
+  int width = 0, height = 0, channels = 0;
+  stbi_uc* pixels = stbi_load(path.c_str(), &width, &height, &channels, 0);
+  ASSERT_NE(pixels, nullptr);
+  EXPECT_EQ(width, 7);
+  EXPECT_EQ(height, 5);
+  ASSERT_EQ(channels, 3);
+  for (std::size_t i = 0; i < image.rgb.size(); ++i) EXPECT_EQ(pixels[i], srgb_byte(image.rgb[i])) << i;
+  stbi_image_free(pixels);
+}
+
+TEST(PngWriter, RefusesWhatIsNotANumber) {
+  const std::string path = (test::fresh_folder() / "a.png").string();
+  EXPECT_THROW(write_png({1, 1, {0, NAN, 0}}, path), Error);
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(PngWriter, PathIsCheckedFirst) {
+  EXPECT_NO_THROW(check_picture_path("a.PNG"));
+  EXPECT_THROW(check_picture_path("a.jpg"), Error);
+  EXPECT_THROW(check_picture_path("no/such/folder/a.png"), Error);
+}
+
+}  // namespace
+}  // namespace pelage
