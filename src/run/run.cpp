@@ -117,8 +117,7 @@ double measured_wavelength(const SparseMatrix& mass, const SparseMatrix& stiffne
   const Vector ones = Vector::Ones(u.size());
   const Vector integral = mass * ones;
   const Vector deviation = u.array() - dot(integral, u) / integral.sum();
-  return 2 * std::numbers::pi *
-         std::sqrt(dot(deviation, mass * deviation) / dot(deviation, stiffness * deviation));
+  return 2 * std::numbers::pi * std::sqrt(dot(deviation, mass * deviation) / dot(deviation, stiffness * deviation));
 }
 
 // --- checkpoints ----------------------------------------------------------------------------------------
@@ -179,6 +178,11 @@ class Reader {
   std::size_t at_ = 0;
 };
 
+bool has_sizes(const std::vector<Vector>& fields, std::size_t count, Eigen::Index size) {
+  return fields.size() == count &&
+         std::all_of(fields.begin(), fields.end(), [&](const Vector& f) { return f.size() == size; });
+}
+
 }  // namespace
 
 std::string Run::checkpoint() const {
@@ -214,8 +218,12 @@ void Run::restore(const std::string& bytes) {
     state.past.push_back(r.fields());
   }
   state.past_rates = r.fields();
-  bool fits = r.at_end() && state.now.size() == state_.now.size();
-  for (std::size_t i = 0; fits && i < state.now.size(); ++i) fits = state.now[i].size() == state_.now[i].size();
+  const System& system = operators_->system();
+  const auto unknowns = system.mass->rows();
+  bool fits = r.at_end() && has_sizes(state.now, state_.now.size(), unknowns);
+  for (const auto& fields : state.past) fits = fits && has_sizes(fields, state_.now.size(), unknowns);
+  if (program_.stepper == "sbdf2" && !state.past.empty())
+    fits = fits && has_sizes(state.past_rates, state_.now.size(), system.sampling->count());
   if (!fits) throw Error(Fault::input, "the checkpoint belongs to another shape, size or model");
   state_ = std::move(state);
   step_ = step;
