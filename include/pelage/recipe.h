@@ -23,8 +23,8 @@ struct Length {
   bool relative = true;
 };
 
-/// "0.04" is a fraction of the diagonal; "4mm", "2cm", "0.1m", "3in", "1.5u" are world units, with metres as the unit of
-/// the file for the metric ones ("u": the file's own unit, whatever it is). Error(Fault::usage) otherwise.
+/// "0.04" is a fraction of the diagonal; "4mm", "2cm", "0.1m", "3in", "1.5u" are world units, with metres as the unit
+/// of the file for the metric ones ("u": the file's own unit, whatever it is). Error(Fault::usage) otherwise.
 Length parse_length(const std::string& text, const Location& where);
 
 /// One run of a model to its stop.
@@ -35,25 +35,26 @@ struct Stage {
     double value = 0;
     Location where;
   };
-  std::vector<Setting> parameters;               ///< of the model, instead of its defaults
-  std::optional<Given<Length>> size;             ///< wanted wavelength of the pattern; default: 4 % of the diagonal
-  Given<std::string> method{"loop", {}};         ///< discretisation
+  std::vector<Setting> parameters;        ///< of the model, instead of its defaults
+  std::optional<Given<Length>> size;      ///< wanted wavelength of the pattern; default: 4 % of the diagonal
+  Given<std::string> method{"loop", {}};  ///< discretisation
   Given<std::string> stepper{"sbdf2", {}};
-  std::optional<double> step;                    ///< fixed step [model time]; default: adaptive, or the stepper's safe step
-  std::optional<double> until;                   ///< stop at this model time; default: the model's suggestion
-  std::optional<std::int64_t> steps;             ///< stop after so many steps
-  std::optional<double> stationary;              ///< stop when the pattern changes by less than this fraction per unit of time; 0: never
+  std::optional<double> step;         ///< fixed step [model time]; default: adaptive, or the stepper's safe step
+  std::optional<double> until;        ///< stop at this model time; default: the model's suggestion
+  std::optional<std::int64_t> steps;  ///< stop after so many steps
+  std::optional<double>
+      stationary;  ///< stop when the pattern changes by less than this fraction per unit of time; 0: never
   std::uint64_t seed = 1;
-  bool interpolate = false;                      ///< the limit surface passes through the vertices of the shape
+  bool interpolate = false;  ///< the limit surface passes through the vertices of the shape
 };
 
 /// How fields become colours and geometry.
 struct Look {
   std::optional<Given<std::string>> species;  ///< which one is shown; default: the last
   Given<std::string> ramp{"tawny", {}};
-  bool invert = false;                        ///< exchange the ends of the ramp
-  bool keep_shape = false;                    ///< the input's flat triangles instead of the limit surface
-  std::optional<int> detail;                  ///< extra splits of every triangle into four; default: as the pattern needs
+  bool invert = false;        ///< exchange the ends of the ramp
+  bool keep_shape = false;    ///< the input's flat triangles instead of the limit surface
+  std::optional<int> detail;  ///< extra splits of every triangle into four; default: as the pattern needs
 };
 
 struct Recipe {

@@ -1,9 +1,8 @@
 #pragma once
 // Counter-based random numbers: a value depends only on its key, never on the order of the calls.
 
-#include <cstdint>
-
 #include <array>
+#include <cstdint>
 
 namespace pelage {
 

@@ -74,58 +74,91 @@ Form gradient_form(const Metric& m, double weight, const Tensor& t) {
   if (!(m.area > 0)) return {0, 0, 0};
   Eigen::Matrix3d tensor;
   tensor << t[0], t[1], t[2], t[1], t[3], t[4], t[2], t[4], t[5];
-  const Form inverse = gradient_form(m, 1 / m.area);  // G^-1
+  const Form inverse = gradient_form(m, 1 / m.area);                // G^-1
   const Eigen::Vector3d v = inverse.vv * m.xv + inverse.vw * m.xw;  // dual tangents
   const Eigen::Vector3d w = inverse.vw * m.xv + inverse.ww * m.xw;
   const double scale = weight * m.area;
   return {scale * v.dot(tensor * v), scale * v.dot(tensor * w), scale * w.dot(tensor * w)};
 }
 
-/// out(i, j) += sum over q of left(q, i) right(q, j). `Functions` and `Points` are compile-time sizes for the unrolled
-/// kernel of regular Loop elements, or 0 for the plain one; both give the same bits.
-template <int Functions, int Points>
-void add_product(const double* left, const double* right, int functions, int points, double* out) {
-  const int n = Functions > 0 ? Functions : functions;
-  const int count = Points > 0 ? Points : points;
-  for (int i = 0; i < n; ++i) {
-    double* row = out + i * n;
-    for (int q = 0; q < count; ++q) {
-      const double factor = left[q * n + i];
-      for (int j = 0; j < n; ++j) row[j] += factor * right[q * n + j];
+/// out(i, j) += sum over q of left(q, i) right(q, j), all row by row.
+void add_product(const double* left, const double* right, Index functions, Index points, double* out) {
+  for (Index i = 0; i < functions; ++i)
+    for (Index j = 0; j < functions; ++j) {
+      double sum = 0;
+      for (Index q = 0; q < points; ++q) sum += left[q * functions + i] * right[q * functions + j];
+      out[i * functions + j] += sum;
     }
+}
+
+/// The same, with the same bits, for sizes known to the compiler, which keeps the sums of a row in registers.
+template <int functions, int points>
+void add_product_fixed(const double* __restrict left, const double* __restrict right, double* __restrict out) {
+  for (int i = 0; i < functions; ++i) {
+    double sum[functions] = {};
+    for (int q = 0; q < points; ++q) {
+      const double factor = left[q * functions + i];
+      for (int j = 0; j < functions; ++j) sum[j] += factor * right[q * functions + j];
+    }
+    for (int j = 0; j < functions; ++j) out[i * functions + j] += sum[j];
   }
 }
 
-void add_product(const RowMatrix& left, const RowMatrix& right, double* out) {
-  const auto n = static_cast<int>(left.cols()), count = static_cast<int>(left.rows());
-  if (n == 12 && count == 6)
-    add_product<12, 6>(left.data(), right.data(), n, count, out);
+}  // namespace
+
+void add_basis_product(const RowMatrix& left, const double* right, double* out) {
+  const auto functions = static_cast<Index>(left.cols()), points = static_cast<Index>(left.rows());
+  if (functions == 12 && points == 6)  // regular Loop elements
+    add_product_fixed<12, 6>(left.data(), right, out);
   else
-    add_product<0, 0>(left.data(), right.data(), n, count, out);
+    add_product(left.data(), right, functions, points, out);
 }
 
-/// Work space of one thread.
+void add_basis_product_plain(const RowMatrix& left, const double* right, double* out) {
+  add_product(left.data(), right, static_cast<Index>(left.cols()), static_cast<Index>(left.rows()), out);
+}
+
+namespace {
+
+/// Work space of one thread, grown to the largest element.
 struct Scratch {
-  RowMatrix first, second;
+  std::vector<double> first, second;
+  std::vector<Form> form;
+  std::vector<double> scale;
+
+  void fit(const ElementClass& c) {
+    const auto size = static_cast<std::size_t>(c.value.size());
+    if (first.size() < size) {
+      first.resize(size);
+      second.resize(size);
+    }
+    form.resize(at(c.points()));
+    scale.resize(at(c.points()));
+  }
 };
 
-/// out = B' W B.
-void mass_matrix(const ElementClass& c, const Vector& scale, Scratch& scratch, double* out) {
-  scratch.first = scale.asDiagonal() * c.value;
-  add_product(c.value, scratch.first, out);
+/// out = B' W B with scratch.scale.
+void mass_matrix(const ElementClass& c, Scratch& scratch, double* out) {
+  const Index n = c.functions();
+  for (Index q = 0; q < c.points(); ++q)
+    for (Index i = 0; i < n; ++i) scratch.first[at(q * n + i)] = scratch.scale[at(q)] * c.value.data()[q * n + i];
+  add_basis_product(c.value, scratch.first.data(), out);
 }
 
-/// out = [G_v G_w]' F [G_v G_w].
-void stiffness_matrix(const ElementClass& c, const std::vector<Form>& form, Scratch& scratch, double* out) {
-  scratch.first.resizeLike(c.dv);
-  scratch.second.resizeLike(c.dv);
-  for (Eigen::Index q = 0; q < c.dv.rows(); ++q) {
-    const Form& f = form[static_cast<std::size_t>(q)];
-    scratch.first.row(q) = f.vv * c.dv.row(q) + f.vw * c.dw.row(q);
-    scratch.second.row(q) = f.vw * c.dv.row(q) + f.ww * c.dw.row(q);
+/// out = [G_v G_w]' F [G_v G_w] with scratch.form.
+void stiffness_matrix(const ElementClass& c, Scratch& scratch, double* out) {
+  const Index n = c.functions();
+  for (Index q = 0; q < c.points(); ++q) {
+    const Form& f = scratch.form[at(q)];
+    const double *dv = c.dv.data() + q * n, *dw = c.dw.data() + q * n;
+    double *first = scratch.first.data() + q * n, *second = scratch.second.data() + q * n;
+    for (Index i = 0; i < n; ++i) {
+      first[i] = f.vv * dv[i] + f.vw * dw[i];
+      second[i] = f.vw * dv[i] + f.ww * dw[i];
+    }
   }
-  add_product(c.dv, scratch.first, out);
-  add_product(c.dw, scratch.second, out);
+  add_basis_product(c.dv, scratch.first.data(), out);
+  add_basis_product(c.dw, scratch.second.data(), out);
 }
 
 }  // namespace
@@ -224,35 +257,36 @@ SparseMatrix Assembler::assemble(const ElementMatrix& element_matrix) const {
 SparseMatrix Assembler::mass(const std::vector<Point>& control, const std::vector<double>& factor) const {
   return assemble([&](std::size_t e, Scratch& scratch, double* out) {
     const ElementClass& c = d_.classes[at(d_.element_class[e])];
-    Vector scale(c.points());
+    scratch.fit(c);
     for (Index q = 0; q < c.points(); ++q) {
       const double f = factor.empty() ? 1 : factor[static_cast<std::size_t>(d_.first_point[e] + q)];
-      scale[q] = f * c.weight[q] * metric(c, q, d_.function.data() + d_.first_function[e], control).area;
+      scratch.scale[at(q)] = f * c.weight[q] * metric(c, q, d_.function.data() + d_.first_function[e], control).area;
     }
-    mass_matrix(c, scale, scratch, out);
+    mass_matrix(c, scratch, out);
   });
 }
 
 SparseMatrix Assembler::stiffness(const std::vector<Point>& control, const std::vector<double>& factor) const {
   return assemble([&](std::size_t e, Scratch& scratch, double* out) {
     const ElementClass& c = d_.classes[at(d_.element_class[e])];
-    std::vector<Form> form(at(c.points()));
+    scratch.fit(c);
     for (Index q = 0; q < c.points(); ++q) {
       const double f = factor.empty() ? 1 : factor[static_cast<std::size_t>(d_.first_point[e] + q)];
-      form[at(q)] = gradient_form(metric(c, q, d_.function.data() + d_.first_function[e], control), f * c.weight[q]);
+      scratch.form[at(q)] =
+          gradient_form(metric(c, q, d_.function.data() + d_.first_function[e], control), f * c.weight[q]);
     }
-    stiffness_matrix(c, form, scratch, out);
+    stiffness_matrix(c, scratch, out);
   });
 }
 
 SparseMatrix Assembler::stiffness(const std::vector<Point>& control, const std::vector<Tensor>& tensor) const {
   return assemble([&](std::size_t e, Scratch& scratch, double* out) {
     const ElementClass& c = d_.classes[at(d_.element_class[e])];
-    std::vector<Form> form(at(c.points()));
+    scratch.fit(c);
     for (Index q = 0; q < c.points(); ++q)
-      form[at(q)] = gradient_form(metric(c, q, d_.function.data() + d_.first_function[e], control), c.weight[q],
-                                  tensor[static_cast<std::size_t>(d_.first_point[e] + q)]);
-    stiffness_matrix(c, form, scratch, out);
+      scratch.form[at(q)] = gradient_form(metric(c, q, d_.function.data() + d_.first_function[e], control), c.weight[q],
+                                          tensor[static_cast<std::size_t>(d_.first_point[e] + q)]);
+    stiffness_matrix(c, scratch, out);
   });
 }
 

@@ -15,8 +15,8 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 
 /// Basis functions of all triangles with the same neighbourhood, at the quadrature points of the reference triangle.
 struct ElementClass {
-  RowMatrix value, dv, dw;           ///< points x basis functions: phi, d phi / dv, d phi / dw
-  Vector weight;                     ///< quadrature weights; their sum is 1/2, the area of the reference triangle
+  RowMatrix value, dv, dw;  ///< points x basis functions: phi, d phi / dv, d phi / dw
+  Vector weight;            ///< quadrature weights; their sum is 1/2, the area of the reference triangle
   std::vector<std::array<double, 2>> place;  ///< (v, w) of the points
 
   Index points() const { return static_cast<Index>(weight.size()); }
@@ -26,16 +26,16 @@ struct ElementClass {
 /// Coefficients are the values at control vertices; samples are the values of the function at the (limit) positions of
 /// the vertices. They coincide for linear elements only: sample = values * coefficients.
 struct Discretisation {
-  std::string method;                    ///< "loop" or "linear"
-  Index unknowns = 0;                    ///< number of basis functions = number of control vertices
+  std::string method;  ///< "loop" or "linear"
+  Index unknowns = 0;  ///< number of basis functions = number of control vertices
   Topology topology;
   std::vector<ElementClass> classes;
-  std::vector<Index> element_class;      ///< per triangle
+  std::vector<Index> element_class;          ///< per triangle
   std::vector<std::int64_t> first_function;  ///< per triangle + 1: where its basis functions begin in `function`
-  std::vector<Index> function;           ///< numbers of the basis functions of all triangles, one after the other
-  std::vector<std::int64_t> first_point; ///< per triangle + 1: number of its first quadrature point
-  SparseMatrix values;                   ///< samples x unknowns: the basis functions at the vertices
-  SparseMatrix tangent1, tangent2;       ///< samples x unknowns: tangents at the vertices (Loop only; may be empty)
+  std::vector<Index> function;               ///< numbers of the basis functions of all triangles, one after the other
+  std::vector<std::int64_t> first_point;     ///< per triangle + 1: number of its first quadrature point
+  SparseMatrix values;                       ///< samples x unknowns: the basis functions at the vertices
+  SparseMatrix tangent1, tangent2;           ///< samples x unknowns: tangents at the vertices (Loop only; may be empty)
 
   std::size_t elements() const { return element_class.size(); }
 };

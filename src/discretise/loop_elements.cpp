@@ -14,7 +14,8 @@ struct QuadraturePoint {
   double v, w, weight;
 };
 
-/// Six points, exact for polynomials of degree four (Strang, Fix 1973; digits of Dunavant 1985). The weights sum to 1/2.
+/// Six points, exact for polynomials of degree four (Strang, Fix 1973; digits of Dunavant 1985). The weights sum to
+/// 1/2.
 std::vector<QuadraturePoint> six_point_rule() {
   constexpr double a = 0.445948490915965, weight_a = 0.223381589678011 / 2;
   constexpr double b = 0.091576213509771, weight_b = 0.109951743655322 / 2;

@@ -30,7 +30,8 @@ std::size_t rank_across_previous(const CornerType& c) {
 /// Ranks of the corner's remaining outer points, counter-clockwise around the triangle.
 std::vector<std::size_t> other_ranks(const CornerType& c) {
   std::vector<std::size_t> ranks;
-  for (std::size_t rank = next_rank(c) + 3; rank < ring_size(c) - (c.position < 0 ? 1 : 0); ++rank) ranks.push_back(rank);
+  for (std::size_t rank = next_rank(c) + 3; rank < ring_size(c) - (c.position < 0 ? 1 : 0); ++rank)
+    ranks.push_back(rank);
   if (c.position >= 0)
     for (std::size_t rank = 0; rank + 1 < next_rank(c); ++rank) ranks.push_back(rank);
   return ranks;
@@ -80,8 +81,7 @@ std::size_t descend(double& v, double& w) {
 
 /// A polynomial patch has corners that are inside with valence 6, or on the boundary with three triangles.
 bool is_regular(const PatchSignature& s) {
-  return std::all_of(s.begin(), s.end(),
-                     [](const CornerType& c) { return c.valence == (c.position < 0 ? 6 : 4); });
+  return std::all_of(s.begin(), s.end(), [](const CornerType& c) { return c.valence == (c.position < 0 ? 6 : 4); });
 }
 
 using Row = Eigen::RowVectorXd;
@@ -95,8 +95,8 @@ std::array<Row, 6> six_neighbours(const CornerType& type, const Row& corner, con
     std::copy(ring.begin(), ring.end(), result.begin());
     return result;
   }
-  const std::array<Row, 6> full = {ring[0], ring[1], ring[2], ring[3], corner + ring[3] - ring[2],
-                                   corner + ring[0] - ring[1]};
+  const std::array<Row, 6> full = {
+      ring[0], ring[1], ring[2], ring[3], corner + ring[3] - ring[2], corner + ring[0] - ring[1]};
   for (std::size_t i = 0; i < 6; ++i) result[i] = full[(static_cast<std::size_t>(type.position) + i) % 6];
   return result;
 }
@@ -156,7 +156,8 @@ void LoopPatches::expand_to_box_spline(PatchClass& patch, const RingNumbers& id)
     const auto six = six_neighbours(patch.signature[i], unit.row(static_cast<Eigen::Index>(i)), ring);
     // The neighbours of rank 2 to 5 of corners b, c, a are r0..r3, r3..r6, r6..r0.
     const std::size_t first = 3 * ((i + 2) % 3);
-    for (std::size_t k = 0; k < 4; ++k) patch.expansion.row(static_cast<Eigen::Index>(3 + (first + k) % 9)) = six[2 + k];
+    for (std::size_t k = 0; k < 4; ++k)
+      patch.expansion.row(static_cast<Eigen::Index>(3 + (first + k) % 9)) = six[2 + k];
   }
 }
 
@@ -172,8 +173,7 @@ LoopPatches::PatchClass LoopPatches::make_class(const PatchSignature& signature)
 
 void LoopPatches::make_children(Index parent_class) {
   const auto parent = static_cast<std::size_t>(parent_class);
-  const Topology coarse =
-      make_topology(static_cast<std::size_t>(classes_[parent].size), classes_[parent].triangles);
+  const Topology coarse = make_topology(static_cast<std::size_t>(classes_[parent].size), classes_[parent].triangles);
   const Refinement refined = loop_refine(coarse);
   const Topology fine = make_topology(refined.stencils.rows(), refined.triangles);
   for (Index child = 0; child < 4; ++child) {

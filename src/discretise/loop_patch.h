@@ -18,8 +18,8 @@ namespace pelage {
 
 /// Neighbourhood of one corner of a triangle.
 struct CornerType {
-  Index valence = 6;   ///< number of edges at the corner
-  Index position = -1; ///< -1 inside; on the boundary the rank of the triangle in the corner's fan, counter-clockwise
+  Index valence = 6;    ///< number of edges at the corner
+  Index position = -1;  ///< -1 inside; on the boundary the rank of the triangle in the corner's fan, counter-clockwise
   auto operator<=>(const CornerType&) const = default;
 };
 using PatchSignature = std::array<CornerType, 3>;
@@ -58,9 +58,10 @@ class LoopPatches {
   struct PatchClass {
     PatchSignature signature;
     Index size = 0;
-    std::vector<Source> sources;     ///< of control points 3, 4, ...
-    std::vector<Triangle> triangles; ///< all triangles that touch a corner, in local numbers; the patch itself is first
-    Eigen::MatrixXd expansion;       ///< 12 x size: box spline points; empty when the patch is not a polynomial
+    std::vector<Source> sources;  ///< of control points 3, 4, ...
+    std::vector<Triangle>
+        triangles;              ///< all triangles that touch a corner, in local numbers; the patch itself is first
+    Eigen::MatrixXd expansion;  ///< 12 x size: box spline points; empty when the patch is not a polynomial
     std::array<Index, 4> child{-1, -1, -1, -1};
     std::array<Eigen::MatrixXd, 4> child_points;  ///< size(child) x size
   };

@@ -23,8 +23,7 @@ std::vector<Point> apply_to_points(const SparseMatrix& a, const std::vector<Poin
   parallel_for(result.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r)
       for (auto k = a.pattern->start[r]; k < a.pattern->start[r + 1]; ++k)
-        for (std::size_t d = 0; d < 3; ++d)
-          result[r][d] += a.value[at(k)] * points[at(a.pattern->column[at(k)])][d];
+        for (std::size_t d = 0; d < 3; ++d) result[r][d] += a.value[at(k)] * points[at(a.pattern->column[at(k)])][d];
   });
   return result;
 }

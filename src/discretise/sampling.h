@@ -18,10 +18,10 @@ struct Sampling {
   Eigen::Index count() const { return weight.size(); }
 };
 
-/// Samples at the limit positions of the vertices, with the weights w = A^-T (M 1), A = values, that make the quadrature
-/// exact for every basis function: as accurate as the consistent mass to less than a percent at ten edges per
-/// wavelength, and several times cheaper. Weights that come out below a tenth of the vertex' share of the area (some
-/// are negative on uneven meshes) are raised to it, and all are scaled to keep the total area.
+/// Samples at the limit positions of the vertices, with the weights w = A^-T (M 1), A = values, that make the
+/// quadrature exact for every basis function: as accurate as the consistent mass to less than a percent at ten edges
+/// per wavelength, and several times cheaper. Weights that come out below a tenth of the vertex' share of the area
+/// (some are negative on uneven meshes) are raised to it, and all are scaled to keep the total area.
 Sampling vertex_sampling(const Discretisation& discretisation, const std::vector<Point>& control,
                          const SparseMatrix& mass);
 

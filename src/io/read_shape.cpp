@@ -12,6 +12,7 @@
 #include "io/off_reader.h"
 #include "io/ply_reader.h"
 #include "io/stl_reader.h"
+#include "shape/generators.h"
 #include "shape/repair.h"
 
 namespace pelage {
@@ -61,6 +62,7 @@ Error located(const ShapeFault& fault, const RawShape& raw, const std::string& p
 }  // namespace
 
 ShapeFile read_shape(const std::string& path) {
+  if (is_builtin_shape(path)) return {builtin_shape(path), {}};
   const Format& format = format_of(path);
   RawShape raw;
   {

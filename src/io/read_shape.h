@@ -15,7 +15,7 @@ struct ShapeFile {
 };
 
 /// Reads OBJ, PLY, STL, OFF, glTF and GLB (the extension decides; capitals count as small letters), cuts polygons
-/// into triangles, checks and repairs. "builtin:NAME?parameters" makes a built-in shape.
+/// into triangles, checks and repairs. "builtin:NAME?parameters" makes a built-in shape (shape/generators.h).
 /// Throws Error(Fault::input): "FILE:LINE: face 1204: ..." with the line where the format has lines; vertices
 /// and faces are counted from 0 in the order of the file.
 ShapeFile read_shape(const std::string& path_or_builtin);

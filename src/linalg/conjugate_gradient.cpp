@@ -89,14 +89,14 @@ Vector solve_general(const SparseMatrix& a, const Vector& b, double tolerance) {
   using EigenMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
   std::vector<std::int32_t> start(a.pattern->start.begin(), a.pattern->start.end());
   const Eigen::Map<const EigenMatrix> matrix(a.rows(), a.columns(), static_cast<std::int32_t>(a.value.size()),
-                                         start.data(), a.pattern->column.data(), a.value.data());
+                                             start.data(), a.pattern->column.data(), a.value.data());
   Eigen::BiCGSTAB<EigenMatrix> solver;
   solver.setTolerance(tolerance);
   solver.compute(matrix);
   const Vector x = solver.solveWithGuess(b, b);
   if (!(solver.error() <= 1e3 * tolerance))
-    throw Error(Fault::numerics, "a limit-surface system did not converge (residual " +
-                                     std::to_string(solver.error()) + "); the mesh may have extreme valences");
+    throw Error(Fault::numerics, "a limit-surface system did not converge (residual " + std::to_string(solver.error()) +
+                                     "); the mesh may have extreme valences");
   return x;
 }
 

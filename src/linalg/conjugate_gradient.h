@@ -7,7 +7,7 @@ namespace pelage {
 
 struct SolveReport {
   int iterations = 0;
-  double residual = 0;            ///< |b - A x| / |b|, as updated by the recurrence
+  double residual = 0;  ///< |b - A x| / |b|, as updated by the recurrence
   bool converged = false;
   bool positive_definite = true;  ///< false: a direction of non-positive curvature was met, and the solve given up
 };

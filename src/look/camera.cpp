@@ -1,7 +1,6 @@
 #include "look/camera.h"
 
 #include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

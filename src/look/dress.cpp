@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/suggest.h"
 #include "look/ramp.h"
+#include "shape/refine.h"
 
 namespace pelage {
 
@@ -37,8 +39,8 @@ std::vector<double> split_corners(const std::vector<double>& values, std::size_t
 /// A mesh on its way through refinement: flat positions and attributes at midpoints, fields by the method's rule.
 struct Tessellation {
   Topology topology;
-  std::vector<Point> flat;      ///< on the shape's own triangles
-  std::vector<Point> control;   ///< of the surface; empty before the level of the run
+  std::vector<Point> flat;     ///< on the shape's own triangles
+  std::vector<Point> control;  ///< of the surface; empty before the level of the run
   std::vector<std::vector<double>> fields;
   std::vector<Attribute> attributes;
 };
@@ -59,42 +61,47 @@ void refine(Tessellation& t, bool loop) {
   t.topology = make_topology(middle.stencils.rows(), middle.triangles);
 }
 
-std::vector<Attribute> kept_attributes(const TriangleMesh& shape, const Model& model) {
+std::vector<Attribute> kept_attributes(std::vector<Attribute> attributes, const std::vector<std::string>& species) {
   std::vector<Attribute> kept;
-  for (Attribute a : shape.attributes) {
-    if (a.name == "normal") continue;                  // made anew
-    if (a.name == "color") a.name = "input_color";     // makes room for the coat
-    bool is_species = false;
-    for (std::size_t i = 0; i < model.species_count(); ++i) is_species |= a.name == model.species_name(i);
-    if (!is_species) kept.push_back(std::move(a));
+  for (Attribute& a : attributes) {
+    if (a.name == "normal") continue;               // made anew
+    if (a.name == "color") a.name = "input_color";  // makes room for the coat
+    if (std::find(species.begin(), species.end(), a.name) == species.end()) kept.push_back(std::move(a));
   }
   return kept;
 }
 
 /// The shape's triangles at the level of the run, with the run's control points and fields.
-Tessellation at_run_level(const Run& run) {
+Tessellation at_run_level(CoatFields& fields) {
   Tessellation t;
-  const Program& program = run.program();
-  t.topology = make_topology(program.shape.points.size(), program.shape.triangles);
-  t.flat = program.shape.points;
-  t.attributes = kept_attributes(program.shape, program.model);
-  for (int level = 0; level < run.operators().levels(); ++level) refine(t, false);
-  t.control = run.operators().control();
-  for (const Vector& c : run.coefficients()) t.fields.emplace_back(c.begin(), c.end());
+  t.topology = make_topology(fields.shape.points.size(), std::move(fields.shape.triangles));
+  t.flat = std::move(fields.shape.points);
+  t.attributes = kept_attributes(std::move(fields.shape.attributes), fields.species);
+  for (int level = 0; level < fields.levels; ++level) refine(t, false);
+  t.control = std::move(fields.control);
+  t.fields = std::move(fields.coefficients);
   return t;
 }
 
-int levels_for_colour(const Run& run) {
-  const Topology& topology = run.operators().discretisation().topology;
-  double edge = prevailing_edge(topology.triangles, run.operators().control());
-  std::size_t triangles = topology.triangles.size();
+int levels_for_colour(const Tessellation& t, double wavelength) {
+  double edge = prevailing_edge(t.topology.triangles, t.control);
+  std::size_t triangles = t.topology.triangles.size();
   int levels = 0;
-  while (edge > run.program().size / edges_per_wavelength && 4 * triangles <= most_triangles) {
+  while (edge > wavelength / edges_per_wavelength && 4 * triangles <= most_triangles) {
     edge /= 2;
     triangles *= 4;
     ++levels;
   }
   return levels;
+}
+
+int checked_detail(const Tessellation& t, int detail) {
+  double triangles = static_cast<double>(t.topology.triangles.size());
+  for (int i = 0; i < detail && triangles <= 3e7; ++i) triangles *= 4;
+  if (triangles > 3e7)
+    throw Error(Fault::usage,
+                "detail " + std::to_string(detail) + " makes more than 30 million triangles; ask for less");
+  return detail;
 }
 
 Point cross(const Point& a, const Point& b) {
@@ -151,18 +158,21 @@ std::vector<double> colours(const std::vector<double>& field, const Look& look) 
   return values;
 }
 
-std::size_t shown_species(const Model& model, const Look& look) {
-  for (std::size_t i = 0; i < model.species_count(); ++i)
-    if (look.species && model.species_name(i) == look.species->value) return i;
-  return model.species_count() - 1;
+std::size_t shown_species(const std::vector<std::string>& species, const Look& look) {
+  if (!look.species) return species.size() - 1;
+  const auto found = std::find(species.begin(), species.end(), look.species->value);
+  if (found == species.end())
+    throw Error(Fault::usage, unknown_name("species", look.species->value, species), look.species->where);
+  return static_cast<std::size_t>(found - species.begin());
 }
 
 }  // namespace
 
-TriangleMesh dress(const Run& run, const Look& look) {
-  const bool loop = run.program().method == "loop";
-  Tessellation t = at_run_level(run);
-  const int levels = look.detail.value_or(levels_for_colour(run));
+TriangleMesh dress(CoatFields fields, const Look& look) {
+  const bool loop = fields.loop;
+  const std::size_t shown = shown_species(fields.species, look);
+  Tessellation t = at_run_level(fields);
+  const int levels = look.detail ? checked_detail(t, *look.detail) : levels_for_colour(t, fields.wavelength);
   for (int level = 0; level < levels; ++level) refine(t, loop);
 
   TriangleMesh mesh;
@@ -181,9 +191,9 @@ TriangleMesh dress(const Run& run, const Look& look) {
   }
   mesh.triangles = std::move(t.topology.triangles);
   mesh.set({"normal", 3, Domain::vertex, unit_vectors(normals)});
-  mesh.set({"color", 3, Domain::vertex, colours(t.fields[shown_species(run.program().model, look)], look)});
+  mesh.set({"color", 3, Domain::vertex, colours(t.fields[shown], look)});
   for (std::size_t i = 0; i < t.fields.size(); ++i)
-    mesh.set({run.program().model.species_name(i), 1, Domain::vertex, std::move(t.fields[i])});
+    mesh.set({fields.species[i], 1, Domain::vertex, std::move(t.fields[i])});
   for (Attribute& a : t.attributes) mesh.set(std::move(a));
   return mesh;
 }

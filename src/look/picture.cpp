@@ -20,7 +20,7 @@ using Eigen::Vector3f;
 namespace {
 
 /// What the random numbers of a sample are used for; each use has its own sequence.
-enum Use : std::uint32_t { use_pixel = 1, use_key = 2, use_bounce = 3, use_second_key = 4 };
+enum Use : std::uint32_t { use_pixel = 1, use_key = 2, use_bounce = 3, use_second_key = 4, use_dither = 5 };
 
 /// Random points for one sample of one pixel.
 struct Sample {
@@ -166,18 +166,42 @@ Vector3f Painter::path(float x, float y, const Sample& sample) const {
 /// Density of a tent of half-width 1 pixel around 0, by inversion.
 float tent(float random) { return random < 0.5F ? std::sqrt(2 * random) - 1 : 1 - std::sqrt(2 - 2 * random); }
 
+/// Whether the paths of a pixel agree so well that more of them cannot change its 8 bits: plain backdrop.
+class Agreement {
+ public:
+  void add(const Vector3f& color) {
+    low_ = low_.cwiseMin(color);
+    high_ = high_.cwiseMax(color);
+  }
+  bool reached() const { return (high_ - low_).maxCoeff() < 0.002F; }  // half a step of sRGB at light grey
+
+ private:
+  Vector3f low_ = Vector3f::Constant(1e9F), high_ = Vector3f::Constant(-1e9F);
+};
+
+/// Noise of half a step of 8-bit sRGB at light grey, or the even backdrop would show bands.
+float dither(std::uint32_t index) {
+  constexpr float step = 0.01F;  // relative, in linear light
+  return 1 + step * (scrambled_sobol(index, use_dither)[0] - 0.5F);
+}
+
 Vector3f Painter::pixel(int x, int y) const {
   const auto block = std::bit_ceil(static_cast<std::uint32_t>(options_.samples));
-  const std::uint32_t first = z_order(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)) * block;
+  const std::uint32_t number = z_order(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+  constexpr int enough_if_agreed = 8;
   Vector3f sum = Vector3f::Zero();
-  for (int s = 0; s < options_.samples; ++s) {
-    const Sample sample{first + static_cast<std::uint32_t>(s)};
+  Agreement agreement;
+  int count = 0;
+  while (count < options_.samples && !(count == enough_if_agreed && agreement.reached())) {
+    const Sample sample{number * block + static_cast<std::uint32_t>(count++)};
     const std::array<float, 2> place = sample(use_pixel);
     const float px = static_cast<float>(x) + 0.5F + tent(place[0]), py = static_cast<float>(y) + 0.5F + tent(place[1]);
-    sum +=
-        path(2 * px / static_cast<float>(options_.width) - 1, 1 - 2 * py / static_cast<float>(options_.height), sample);
+    const auto width = static_cast<float>(options_.width), height = static_cast<float>(options_.height);
+    const Vector3f color = path(2 * px / width - 1, 1 - 2 * py / height, sample);
+    sum += color;
+    agreement.add(color);
   }
-  return sum / static_cast<float>(options_.samples);
+  return sum * (dither(number) / static_cast<float>(count));
 }
 
 void check(const PictureOptions& options) {
@@ -198,7 +222,8 @@ Image render(const TriangleMesh& mesh, const PictureOptions& options, const Prog
   check(options);
   const Painter painter(mesh, stand_upright(mesh, upright_rotation(options.up)), options);
   Image image{options.width, options.height, std::vector<float>(std::size_t{3} * options.width * options.height)};
-  constexpr int band = 32, tile = 16;  // rows between two reports; pixels that one thread takes at a time
+  constexpr int band = 32;              // rows between two reports
+  constexpr std::size_t portion = 256;  // pixels that a thread takes at a time
   for (int top = 0; top < options.height; top += band) {
     if (progress && !progress("picture", static_cast<double>(top) / options.height))
       throw Error(Fault::cancelled, "the picture was cancelled");
@@ -207,13 +232,12 @@ Image render(const TriangleMesh& mesh, const PictureOptions& options, const Prog
         static_cast<std::size_t>(rows) * options.width,
         [&](std::size_t begin, std::size_t end) {
           for (std::size_t i = begin; i < end; ++i) {
-            const int x = static_cast<int>(i) % options.width, y = top + static_cast<int>(i) / options.width;
-            Eigen::Map<Vector3f>(image.rgb.data() +
-                                 std::size_t{3} * (std::size_t{static_cast<unsigned>(y)} * options.width + x)) =
-                painter.pixel(x, y);
+            const std::size_t pixel = static_cast<std::size_t>(top) * options.width + i;
+            const int x = static_cast<int>(pixel % options.width), y = static_cast<int>(pixel / options.width);
+            Eigen::Map<Vector3f>(image.rgb.data() + 3 * pixel) = painter.pixel(x, y);
           }
         },
-        tile * tile);
+        portion);
   }
   return image;
 }

@@ -55,9 +55,10 @@ using Overrides = std::map<std::string, Override>;
 
 /// What the steppers start from; none of it is part of the equations.
 struct Suggestions {
-  std::optional<double> step;       ///< time step, model time units
-  std::optional<double> end;        ///< time after which the pattern is finished
-  std::optional<double> tolerance;  ///< stationary when no concentration changes faster than this per unit time
+  std::optional<double> step;  ///< time step, model time units
+  std::optional<double> end;   ///< time after which the pattern is finished
+  std::optional<double>
+      tolerance;  ///< stationary when the pattern changes by less than this share of its amplitude per unit time
 };
 
 /// A named set of parameter values under the same equations.

@@ -19,7 +19,8 @@ void read_text(const Value& table, const std::string& key, Given<std::string>& t
 std::int64_t whole_number(const Value& v, double least) {
   const double x = v.number();
   if (!(x >= least && x <= 9e15) || x != std::floor(x))
-    throw Error(Fault::usage, "expected a whole number of at least " + std::to_string(static_cast<int>(least)), v.where());
+    throw Error(Fault::usage, "expected a whole number of at least " + std::to_string(static_cast<int>(least)),
+                v.where());
   return static_cast<std::int64_t>(x);
 }
 

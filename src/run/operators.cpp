@@ -1,12 +1,18 @@
 #include "run/operators.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "base/random.h"
+#include "linalg/conjugate_gradient.h"
 #include "pelage/error.h"
 
 namespace pelage {
 
 namespace {
+
+/// At least so many control vertices per wavelength: Loop elements then represent a sine to better than a percent.
+constexpr double vertices_per_wavelength = 6;
 
 /// A finer mesh would need more than the memory of common machines: about 2 kB per Loop vertex.
 constexpr std::size_t max_triangles = 8'000'000;
@@ -56,8 +62,8 @@ Operators::Operators(const Program& program, const Progress& progress)
     sampling_ = vertex_sampling(*discretisation_, control_, mass_);
     mass_ = sampled_mass(sampling_, mass_.pattern);
   }
-  kinetics_ = std::make_unique<Kinetics>(model_, places_of(sampling_.position, sampling_.normal, length_unit_),
-                                         program.seed);
+  kinetics_ =
+      std::make_unique<Kinetics>(model_, places_of(sampling_.position, sampling_.normal, length_unit_), program.seed);
   build_species(program);
 }
 
@@ -86,8 +92,8 @@ void Operators::build_species(const Program& program) {
             std::make_unique<Kinetics>(model_, places_of(g.position, g.normal, length_unit_), program.seed);
         quadrature_values_ = quadrature_values(*discretisation_);
       }
-      variable_[i] = std::make_unique<SparseMatrix>(
-          assembler_->stiffness(control_, diffusion_at_quadrature(i, nullptr)));
+      variable_[i] =
+          std::make_unique<SparseMatrix>(assembler_->stiffness(control_, diffusion_at_quadrature(i, nullptr)));
       s.stiffness = variable_[i].get();
     }
     system_.species.push_back(s);
@@ -95,9 +101,8 @@ void Operators::build_species(const Program& program) {
   system_.reaction.rates = [this](const FieldPointers& u, double t, std::size_t begin, std::size_t end,
                                   const MutableFieldPointers& rate) { kinetics_->rates(u, t, begin, end, rate); };
   system_.reaction.split = [this](const FieldPointers& u, double t, std::size_t begin, std::size_t end,
-                                  const MutableFieldPointers& c2, const MutableFieldPointers& c3) {
-    kinetics_->split(u, t, begin, end, c2, c3);
-  };
+                                  const MutableFieldPointers& c2,
+                                  const MutableFieldPointers& c3) { kinetics_->split(u, t, begin, end, c2, c3); };
   system_.weighted_mass = [this](const Vector& factor) {
     return assembler_->mass(control_, std::vector<double>(factor.begin(), factor.end()));
   };
@@ -132,6 +137,18 @@ void Operators::update(const State& state) {
   for (std::size_t i = 0; i < variable_.size(); ++i)
     if (variable_[i] && diffusion_varies_in_time(i))
       *variable_[i] = assembler_->stiffness(control_, diffusion_at_quadrature(i, &state));
+}
+
+double Operators::largest_k2() const {
+  Vector x(stiffness_.rows());
+  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = 2 * uniform(0, static_cast<std::uint64_t>(i)) - 1;
+  double k2 = 0;
+  for (int iteration = 0; iteration < 25; ++iteration) {
+    const Vector y = solve_spd(mass_, stiffness_ * x, {.tolerance = 1e-4});
+    k2 = std::sqrt(dot(y, y) / dot(x, x));
+    x = y / std::sqrt(dot(y, y));
+  }
+  return 1.1 * k2;  // power iteration comes from below
 }
 
 std::vector<Vector> Operators::initial() const {

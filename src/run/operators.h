@@ -7,7 +7,7 @@
 #include "discretise/sampling.h"
 #include "react/kinetics.h"
 #include "run/program.h"
-#include "run/refine_for_size.h"
+#include "shape/refine.h"
 #include "time/system.h"
 
 namespace pelage {
@@ -24,6 +24,9 @@ class Operators {
   const std::vector<Point>& control() const { return control_; }
   const SparseMatrix& stiffness() const { return stiffness_; }  ///< of unit diffusion
   int levels() const { return levels_; }                        ///< refinements of the program's shape
+
+  /// An upper estimate of the largest k^2 that the mesh carries: of K x = k^2 M x, by power iteration [1 / world^2].
+  double largest_k2() const;
 
   /// Coefficients of the initial state.
   std::vector<Vector> initial() const;
@@ -44,8 +47,8 @@ class Operators {
   std::unique_ptr<Assembler> assembler_;
   Sampling sampling_;
   SparseMatrix mass_, stiffness_;
-  std::unique_ptr<Kinetics> kinetics_;                   ///< at the samples
-  std::unique_ptr<Kinetics> quadrature_kinetics_;        ///< at the quadrature points, for diffusion that varies
+  std::unique_ptr<Kinetics> kinetics_;             ///< at the samples
+  std::unique_ptr<Kinetics> quadrature_kinetics_;  ///< at the quadrature points, for diffusion that varies
   SparseMatrix quadrature_values_;
   std::vector<std::unique_ptr<SparseMatrix>> variable_;  ///< stiffness of species whose diffusion varies
   System system_;

@@ -10,17 +10,17 @@
 namespace pelage {
 
 struct Program {
-  TriangleMesh shape;          ///< repaired control mesh
+  TriangleMesh shape;  ///< repaired control mesh
   Model model;
-  std::string method;          ///< of discretisation
+  std::string method;  ///< of discretisation
   std::string stepper;
   double size = 0;             ///< wanted wavelength [world units]
   double length_unit = 0;      ///< world length of one model length unit: size / the model's wavelength
   std::optional<double> step;  ///< fixed step; else the stepper's choice
   double suggested_step = 0;
-  double until = 0;            ///< model time
+  double until = 0;  ///< model time
   std::optional<std::int64_t> steps;
-  double stationary = 0;       ///< 0: never
+  double stationary = 0;  ///< 0: never
   std::uint64_t seed = 1;
   bool interpolate = false;
 };

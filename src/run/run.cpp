@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numbers>
 
 #include "pelage/error.h"
+#include "time/step_limit.h"
 
 namespace pelage {
 
@@ -21,13 +23,22 @@ constexpr double first_step_fraction = 1.0 / 16;
 /// After halving so often there is no step that helps.
 constexpr int most_halvings = 30;
 /// The residual lies far below the change of one step, which the warm start would otherwise swallow.
-constexpr double solver_tolerance = 1e-7;
+constexpr double solver_tolerance = 1e-6;
 
 bool adaptive(const Program& p) { return !p.step && p.stepper == "sbdf2"; }
 
-double first_step(const Program& p) {
+/// The nonlinear terms need some room below the limit of the linear analysis.
+constexpr double share_of_stable_step = 0.8;
+
+double find_stable_step(const Program& p, const Operators& operators) {
+  if (p.stepper == "sbdf2") return std::numeric_limits<double>::infinity();
+  return largest_stable_step(p.model, p.stepper, operators.largest_k2() * p.length_unit * p.length_unit);
+}
+
+double first_step(const Program& p, double stable_step) {
   if (p.step) return *p.step;
-  return adaptive(p) ? p.suggested_step * first_step_fraction : p.suggested_step;
+  if (adaptive(p)) return p.suggested_step * first_step_fraction;
+  return std::min(p.suggested_step, share_of_stable_step * stable_step);
 }
 
 }  // namespace
@@ -36,7 +47,8 @@ Run::Run(Program program, const Progress& progress)
     : program_(std::move(program)),
       operators_(std::make_unique<Operators>(program_, progress)),
       stepper_(make_stepper(program_.stepper)),
-      step_(first_step(program_)) {
+      stable_step_(find_stable_step(program_, *operators_)),
+      step_(first_step(program_, stable_step_)) {
   state_.now = operators_->initial();
   summary_.step = step_;
   check_stop();
@@ -111,6 +123,20 @@ void Run::fail(const StepReport& report) {
                      report.failure + "; " +
                      (program_.step ? "halve the step or leave it to the stepper"
                                     : "check the parameters of the model, or give a smaller --step");
+}
+
+CoatFields Run::fields() const {
+  CoatFields f;
+  f.shape = program_.shape;
+  f.levels = operators_->levels();
+  f.loop = program_.method == "loop";
+  f.control = operators_->control();
+  f.wavelength = program_.size;
+  for (std::size_t i = 0; i < state_.now.size(); ++i) {
+    f.species.push_back(program_.model.species_name(i));
+    f.coefficients.emplace_back(state_.now[i].begin(), state_.now[i].end());
+  }
+  return f;
 }
 
 double measured_wavelength(const SparseMatrix& mass, const SparseMatrix& stiffness, const Vector& u) {

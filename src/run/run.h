@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/progress.h"
+#include "look/dress.h"
 #include "run/operators.h"
 #include "run/program.h"
 #include "time/stepper.h"
@@ -23,13 +24,13 @@ enum class RunStatus {
 /// What has happened so far.
 struct RunSummary {
   RunStatus status = RunStatus::running;
-  std::string message;            ///< of a failure: what, where, and what to do
-  double time = 0;                ///< model time
+  std::string message;  ///< of a failure: what, where, and what to do
+  double time = 0;      ///< model time
   std::int64_t steps = 0;
-  double step = 0;                ///< size of the next step
-  double change = 0;              ///< of the pattern per unit of time, relative to its amplitude
-  std::int64_t iterations = 0;    ///< of the linear solver since the start or resumption
-  std::int64_t rejected = 0;      ///< steps repeated with a smaller size
+  double step = 0;                  ///< size of the next step
+  double change = 0;                ///< of the pattern per unit of time, relative to its amplitude
+  std::int64_t iterations = 0;      ///< of the linear solver since the start or resumption
+  std::int64_t rejected = 0;        ///< steps repeated with a smaller size
   double minimum = 0, maximum = 0;  ///< of the coefficients of all species
 };
 
@@ -47,9 +48,14 @@ class Run {
   /// Fraction of the way to the end, as far as it is known.
   double fraction() const;
 
+  /// Largest step that linear analysis allows the "paper" and "explicit" steppers [model time]; infinite for others.
+  double stable_step() const { return stable_step_; }
+
   const Program& program() const { return program_; }
   const Operators& operators() const { return *operators_; }
   const std::vector<Vector>& coefficients() const { return state_.now; }
+  /// A copy of the fields, to be dressed.
+  CoatFields fields() const;
 
   /// Everything that changes, as bytes (little-endian doubles): a run of the same program that restores it continues
   /// with the same bits.
@@ -67,6 +73,7 @@ class Run {
   std::unique_ptr<Operators> operators_;
   std::unique_ptr<Stepper> stepper_;
   State state_;
+  double stable_step_ = 0;
   double step_ = 0;
   RunSummary summary_;
 };

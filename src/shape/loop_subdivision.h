@@ -27,7 +27,8 @@ double loop_beta(Index valence);
 /// Limits at the control vertices.
 struct LimitMasks {
   Stencils position;
-  Stencils tangent1, tangent2;  ///< two independent tangents, tangent1 x tangent2 points outward; lengths have no meaning
+  Stencils tangent1,
+      tangent2;  ///< two independent tangents, tangent1 x tangent2 points outward; lengths have no meaning
 };
 LimitMasks loop_limit_masks(const Topology& topology);
 

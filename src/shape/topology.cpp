@@ -94,8 +94,7 @@ void check_vertices(const Topology& t) {
       if (t.rotate(h) == start) break;
     }
     if (met != corners[static_cast<std::size_t>(v)])
-      throw Error(Fault::input,
-                  "vertex " + std::to_string(v) + " joins several fans of faces; repair the mesh first");
+      throw Error(Fault::input, "vertex " + std::to_string(v) + " joins several fans of faces; repair the mesh first");
   }
 }
 

@@ -20,6 +20,7 @@ class Sbdf2 final : public Stepper {
     double alpha, now, before, rate_now, rate_before;
   };
   static Scheme scheme(const State& state, double dt);
+  void first_guess(const State& state, std::size_t species, double dt);
   void right_hand_side(const System& system, const Scheme& s, std::size_t species, double dt);
   static double error_estimate(const System& system, const State& state, const std::vector<Vector>& next, double dt);
 
@@ -81,6 +82,20 @@ double Sbdf2::error_estimate(const System& system, const State& state, const std
   return worst;
 }
 
+/// The polynomial through the last states, of degree two at most, continued.
+void Sbdf2::first_guess(const State& state, std::size_t i, double dt) {
+  next_[i] = state.now[i];
+  if (state.past.empty()) return;
+  const double t1 = state.past_steps[0];
+  if (state.past.size() < 2) {
+    axpby(-dt / t1, state.past[0][i], 1 + dt / t1, next_[i]);
+    return;
+  }
+  const double t2 = t1 + state.past_steps[1];
+  axpby(-dt * (dt + t2) / (t1 * (t2 - t1)), state.past[0][i], (dt + t1) * (dt + t2) / (t1 * t2), next_[i]);
+  axpby(dt * (dt + t1) / (t2 * (t2 - t1)), state.past[1][i], 1, next_[i]);
+}
+
 StepReport Sbdf2::step(const System& system, State& state, const StepRequest& request) {
   const double dt = request.dt;
   const Scheme s = scheme(state, dt);
@@ -97,11 +112,7 @@ StepReport Sbdf2::step(const System& system, State& state, const StepRequest& re
     const Species& species = system.species[i];
     matrices_[i].update(*system.mass, s.alpha, *species.stiffness, dt * species.diffusion);
     right_hand_side(system, s, i, dt);
-    next_[i] = state.now[i];
-    if (!state.past.empty()) {  // first guess: straight on
-      const double w = dt / state.past_steps[0];
-      axpby(-w, state.past[0][i], 1 + w, next_[i]);
-    }
+    first_guess(state, i, dt);
     matrices_[i].solve(rhs_, next_[i], species.name, request.solver_tolerance, report);
   }
   if (report.failure.empty()) {

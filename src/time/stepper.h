@@ -10,14 +10,14 @@
 namespace pelage {
 
 struct StepReport {
-  bool accepted = false;      ///< the state has advanced
-  std::string failure;        ///< why it has not; empty when only the error estimate was too large
-  int iterations = 0;         ///< of the linear solver, all species together
-  double residual = 0;        ///< relative, the largest of all species
-  double error = 0;           ///< estimated local error relative to the size of the fields; 0 when unknown
-  double change = 0;          ///< of the pattern per unit of time: root mean square of du/dt over that of the deviation
-                              ///< from the mean, the largest of all species. A growing pattern changes by its growth
-                              ///< rate however faint it is; only a finished one comes to rest.
+  bool accepted = false;  ///< the state has advanced
+  std::string failure;    ///< why it has not; empty when only the error estimate was too large
+  int iterations = 0;     ///< of the linear solver, all species together
+  double residual = 0;    ///< relative, the largest of all species
+  double error = 0;       ///< estimated local error relative to the size of the fields; 0 when unknown
+  double change = 0;      ///< of the pattern per unit of time: root mean square of du/dt over that of the deviation
+                          ///< from the mean, the largest of all species. A growing pattern changes by its growth
+                          ///< rate however faint it is; only a finished one comes to rest.
   double minimum = 0, maximum = 0;  ///< over the coefficients of all species
 };
 

@@ -30,7 +30,7 @@ struct Reaction {
 
 struct Species {
   std::string name;
-  double diffusion = 0;                   ///< D >= 0 [length^2/time]; multiplies `stiffness`
+  double diffusion = 0;  ///< D >= 0 [length^2/time]; multiplies `stiffness`
   const SparseMatrix* stiffness = nullptr;
   double lower = -std::numeric_limits<double>::infinity();  ///< clamps of the coefficients after a step; as the basis
   double upper = std::numeric_limits<double>::infinity();   ///< functions are non-negative they bound the field too
@@ -50,10 +50,10 @@ struct System {
 struct State {
   double time = 0;
   std::int64_t step = 0;
-  std::vector<Vector> now;                      ///< coefficients per species
-  std::vector<std::vector<Vector>> past;        ///< up to two earlier states, the latest first
-  std::vector<double> past_steps;               ///< past_steps[k]: time between states k and k+1 back
-  std::vector<Vector> past_rates;               ///< reaction at the latest earlier state, at the samples (SBDF2)
+  std::vector<Vector> now;                ///< coefficients per species
+  std::vector<std::vector<Vector>> past;  ///< up to two earlier states, the latest first
+  std::vector<double> past_steps;         ///< past_steps[k]: time between states k and k+1 back
+  std::vector<Vector> past_rates;         ///< reaction at the latest earlier state, at the samples (SBDF2)
 };
 
 }  // namespace pelage

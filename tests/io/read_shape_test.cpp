@@ -49,11 +49,19 @@ TEST_F(ReadShape, ExtensionsCountWithoutCase) {
   EXPECT_EQ(read_shape(file("a.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).mesh.triangles.size(), 1u);
 }
 
+TEST_F(ReadShape, BuiltInShapesAreCleanSurfaces) {
+  for (const std::string name : {"sphere", "torus", "knot", "cube", "plane"}) {
+    const ShapeFile shape = read_shape("builtin:" + name + "?n=1000");
+    EXPECT_EQ(test::first_violation(shape.mesh), "") << name;
+  }
+}
+
 TEST_F(ReadShape, FaultsOfTheShapeNameFileLineAndElement) {
   const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n\nf 1 2 3 4\n";
   error("a.obj", square + "f 1 2 9\n", ":7: face 1: refers to vertex 8");
   error("a.obj", "v nan 0 0\n" + square, ":1: vertex 0:");
-  error("a.obj", "v 0 0 1\nv 1 1 1\n" + square + "f 3 4 1\nf 4 3 2\nf 3 4 2\nf 3 4 6\n", ":12: face 4: its edge between vertices 2 and 3");
+  error("a.obj", "v 0 0 1\nv 1 1 1\n" + square + "f 3 4 1\nf 4 3 2\nf 3 4 2\nf 3 4 6\n",
+        ":12: face 4: its edge between vertices 2 and 3");
   error("a.obj", "v 0 0 0\n", ": the shape has no faces");
 }
 

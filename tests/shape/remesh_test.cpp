@@ -31,6 +31,22 @@ TEST(Remesh, MakesAnyTriangulationUniform) {
     }
 }
 
+TEST(Remesh, KeepsTheHoleOfARingThatIsThinnerThanItsEdges) {
+  constexpr double radius = 0.1;
+  auto on_ring = [&](const Point& p) -> Point {
+    const Eigen::Vector3d core = Eigen::Vector3d(p[0], p[1], 0).normalized();
+    const Eigen::Vector3d found = core + radius * (testing::vec(p) - core).normalized();
+    return {found.x(), found.y(), found.z()};
+  };
+  TriangleMesh ring = builtin_shape("builtin:torus?n=2000");
+  for (Point& p : ring.points) p = on_ring(p);
+  for (std::size_t n : {20, 40, 80}) {
+    const testing::MeshFacts facts = testing::mesh_facts(remesh(ring, n, on_ring));
+    EXPECT_EQ(facts.euler, 0);
+    EXPECT_TRUE(facts.closed);
+  }
+}
+
 TEST(Triangulations, AreWhatTheirNamesSay) {
   const auto uniform = testing::mesh_facts(unit_sphere(Triangulation::uniform, 4000));
   EXPECT_LT(uniform.longest_edge / uniform.shortest_edge, 1.5);

@@ -1,12 +1,9 @@
 #pragma once
-// A control mesh fine enough for a pattern.
+// Refinement of a mesh until its edges are short enough.
 
 #include "shape/loop_subdivision.h"
 
 namespace pelage {
-
-/// At least so many control vertices per wavelength: Loop elements then represent a sine to better than a percent.
-inline constexpr double vertices_per_wavelength = 6;
 
 /// A length that 95 % of the surface, by area, does not exceed as the longest edge of its triangle.
 double prevailing_edge(const std::vector<Triangle>& triangles, const std::vector<Point>& points);

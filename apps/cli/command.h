@@ -1,0 +1,33 @@
+#pragma once
+// A subcommand: its options, and what it does after they are parsed.
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "shape/finding.h"
+
+namespace pelage {
+
+using Json = nlohmann::ordered_json;
+
+struct Command {
+  CLI::App* app;
+  std::function<void()> run;  ///< throws Error
+};
+
+Command add_grow(CLI::App& parent);
+Command add_check(CLI::App& parent);
+Command add_models(CLI::App& parent);
+Command add_recipes(CLI::App& parent);
+Command add_verify(CLI::App& parent);
+
+/// Prints to stdout, indented; text that is not UTF-8 gets replacement characters.
+void print_json(const Json& json);
+
+/// Numbers that JSON does not know (infinite ones) become null.
+Json json_number(double value);
+
+Json json_findings(const std::vector<Finding>& findings);
+
+}  // namespace pelage

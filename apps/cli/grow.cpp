@@ -1,0 +1,165 @@
+// pelage grow: a shape goes in, a coated mesh and a picture come out.
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "base/parallel.h"
+#include "catalog/resolve.h"
+#include "command.h"
+#include "grow_options.h"
+#include "grow_report.h"
+#include "interrupt.h"
+#include "io/atomic_file.h"
+#include "io/file_bytes.h"
+#include "io/png_writer.h"
+#include "io/write_mesh.h"
+#include "look/dress.h"
+#include "progress_bar.h"
+#include "text.h"
+
+namespace pelage {
+
+namespace {
+
+/// The program looks at Ctrl-C and the bar about so often, as long as single steps are shorter [s].
+constexpr double slice = 0.1;
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+void stop_if_interrupted() {
+  if (interrupt_signal()) throw Error(Fault::cancelled, "interrupted; nothing more was written");
+}
+
+/// Names are looked up before the shape is read, which may take long: a stand-in of extent 1 will do.
+void check_names(const Recipe& recipe) {
+  TriangleMesh stand_in;
+  stand_in.points = {{0, 0, 0}, {1, 0, 0}};
+  resolve(recipe, std::move(stand_in));
+}
+
+/// Loop elements are made for moderate valences; who did not ask for them gets what works.
+void choose_method(Stage& stage, bool asked, const TriangleMesh& mesh, GrowReport& report) {
+  if (asked || stage.method.value != "loop") return;
+  const Index valence = max_valence(make_topology(mesh.points.size(), mesh.triangles));
+  if (valence <= max_loop_valence) return;
+  stage.method.value = "linear";
+  report.warning("a vertex has " + std::to_string(valence) + " edges, more than the " +
+                 std::to_string(max_loop_valence) + " that Loop elements take; using --method linear");
+}
+
+void restore(Run& run, const std::string& path) {
+  if (path.empty()) return;
+  const std::string bytes = read_file(path);
+  try {
+    run.restore(bytes);
+  } catch (const Error& error) {
+    throw Error(error.fault(), error.what(), {path});
+  }
+}
+
+[[noreturn]] void interrupted(const Run& run, const std::string& checkpoint) {
+  const std::string place = "interrupted at " + std::to_string(run.summary().steps) + " steps, time " +
+                            number(run.summary().time) + "; no mesh or picture was written";
+  if (checkpoint.empty()) throw Error(Fault::cancelled, place + "; with --checkpoint FILE it could go on from here");
+  throw Error(Fault::cancelled, place + "; go on with --resume " + checkpoint);
+}
+
+/// So many steps that they take about one slice, growing slowly since the steps of a settling pattern differ.
+std::int64_t next_steps(std::int64_t steps, double seconds) {
+  const double wanted = static_cast<double>(steps) * slice / std::max(seconds, 1e-6);
+  return std::clamp(static_cast<std::int64_t>(wanted), std::int64_t{1}, 2 * steps);
+}
+
+void grow_to_the_end(Run& run, const GrowOptions& options, const Progress& progress) {
+  std::int64_t steps = 1;
+  while (!run.done() && progress("growing", run.fraction())) {
+    const Stopwatch watch;
+    run.advance(steps);
+    steps = next_steps(steps, watch.seconds());
+  }
+  if (run.summary().status == RunStatus::failed) throw Error(Fault::numerics, run.summary().message);
+  if (!options.checkpoint.empty()) write_file(options.checkpoint, run.checkpoint());
+  if (interrupt_signal()) interrupted(run, options.checkpoint);
+}
+
+void write_outputs(const GrowOptions& options, const TriangleMesh& coat, const Progress& progress, GrowReport& report) {
+  for (const std::string& path : options.outputs) {
+    progress("writing " + path, 0);
+    stop_if_interrupted();
+    write_mesh(coat, path);
+    report.file(path);
+  }
+  if (options.picture.empty()) return;
+  PictureOptions picture;
+  picture.width = picture.height = options.picture_size;
+  picture.up = options.up;
+  const std::string task = "drawing " + options.picture;
+  write_png(render(coat, picture, [&](std::string_view, double fraction) { return progress(task, fraction); }),
+            options.picture);
+  report.file(options.picture);
+}
+
+GrowReport::Form form_of(const GrowOptions& options) {
+  if (options.json) return GrowReport::Form::json;
+  return options.quiet ? GrowReport::Form::nothing : GrowReport::Form::lines;
+}
+
+void grow(const GrowOptions& options) {
+  Recipe recipe = make_recipe(options);
+  check_outputs(options, recipe.shape);
+  check_names(recipe);
+  catch_interrupts();
+  const ThreadLimit threads(options.threads.value_or(0));
+  ProgressBar bar(options.quiet ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
+  const Progress progress = bar.progress();
+  GrowReport report(form_of(options), bar);
+  const Stopwatch total;
+
+  progress("reading " + recipe.shape, 0);
+  ShapeFile file = read_shape(recipe.shape);
+  report.shape(recipe.shape, file);
+  const bool asked_for_method = options.method || recipe.stage.method.where.line > 0;
+  choose_method(recipe.stage, asked_for_method, file.mesh, report);
+
+  Run run(resolve(recipe, std::move(file.mesh)), progress);
+  restore(run, options.resume);
+  report.pattern(recipe.stage.model.value, run);
+  const Stopwatch growth;
+  grow_to_the_end(run, options, progress);
+  report.growth(run, growth.seconds());
+  if (!options.checkpoint.empty()) report.file(options.checkpoint);
+
+  progress("colouring", 0);
+  const TriangleMesh coat = dress(run, recipe.look);
+  write_outputs(options, coat, progress, report);
+  report.end(total.seconds());
+}
+
+}  // namespace
+
+Command add_grow(CLI::App& parent) {
+  auto options = std::make_shared<GrowOptions>();
+  CLI::App* app = parent.add_subcommand(
+      "grow",
+      "Grow a coat on a shape and write a coated mesh, a picture or both\n"
+      "The spacing of the pattern is set by --size alone; a mesh that is too coarse for it is refined on its "
+      "smooth surface.");
+  add_options(*app, *options);
+  app->footer(
+      "Examples:\n"
+      "  pelage grow cow.obj --size 0.04 -o cow.glb,cow.ply --picture cow.png\n"
+      "  pelage grow horse.off --model gray-scott:spots --ramp leopard --keep-shape -o horse.ply\n"
+      "  pelage grow part.stl --size 4mm --up z --set s=0.06 -o part.vtp\n"
+      "  pelage grow --recipe demo -o cub.glb");
+  return {app, [options] { grow(*options); }};
+}
+
+}  // namespace pelage

@@ -1,0 +1,231 @@
+#include "grow_options.h"
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "base/suggest.h"
+#include "catalog/models.h"
+#include "catalog/resolve.h"
+#include "io/atomic_file.h"
+#include "io/png_writer.h"
+#include "io/read_shape.h"
+#include "io/write_mesh.h"
+#include "look/ramp.h"
+#include "shape/generators.h"
+#include "time/stepper.h"
+#include "usage.h"
+
+namespace pelage {
+
+namespace {
+
+constexpr std::int64_t most_steps = 1'000'000'000'000;
+/// Every level makes four times as many triangles: beyond this no mesh fits into memory.
+constexpr int most_detail = 10;
+constexpr int most_threads = 1024;
+constexpr int largest_picture = 32768;
+
+std::string choices(const std::vector<std::string>& names) { return ": " + join_names(names); }
+
+void add_pattern_options(CLI::App& app, GrowOptions& o) {
+  const std::string group = "Pattern";
+  app.add_option("--model", o.model, "MODEL, MODEL:VARIANT or a .toml file (default: turing); see pelage models")
+      ->type_name("NAME")
+      ->group(group);
+  app.add_option("--recipe", o.recipe, "A built-in recipe or a .toml file; the other options override its values")
+      ->type_name("NAME|FILE")
+      ->group(group);
+  app.add_option("--set", o.settings, "Parameter of the model; give it once per parameter")
+      ->type_name("PARAM=VALUE")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->group(group);
+  app.add_option("--size", o.size,
+                 "Spacing of the pattern: a fraction of the shape's diagonal (default: 0.04) or a length: 4mm, 2cm, "
+                 "0.1m, 3in, or 1.5u in units of the file")
+      ->type_name("LENGTH")
+      ->group(group);
+  app.add_option("--seed", o.seed, "Number of the random pattern (default: 1)")
+      ->type_name("N")
+      ->check(whole_number(0, std::numeric_limits<std::int64_t>::max()))
+      ->group(group);
+  app.add_flag("--interpolate", o.interpolate, "Let the smooth surface pass through the vertices of the shape")
+      ->group(group);
+}
+
+void add_time_options(CLI::App& app, GrowOptions& o) {
+  const std::string group = "Computation";
+  app.add_option("--method", o.method, "Finite elements: loop (smooth, default) or linear (flat, faster)")
+      ->type_name("NAME")
+      ->group(group);
+  app.add_option("--stepper", o.stepper, "Time stepper (default: sbdf2)" + choices(stepper_names()))
+      ->type_name("NAME")
+      ->group(group);
+  app.add_option("--step", o.step, "Fixed time step, model time (default: chosen as the pattern allows)")
+      ->type_name("T")
+      ->check(positive_number())
+      ->group(group);
+  app.add_option("--until", o.until, "Stop at this model time (default: the model's suggestion)")
+      ->type_name("T")
+      ->check(positive_number())
+      ->group(group);
+  app.add_option("--steps", o.steps, "Stop after so many steps")
+      ->type_name("N")
+      ->check(whole_number(0, most_steps))
+      ->group(group);
+  app.add_option("--stationary", o.stationary,
+                 "Stop when the pattern changes by less than this fraction per unit of model time; 0: never (default: "
+                 "the model's suggestion)")
+      ->type_name("X")
+      ->check(number_at_least_zero())
+      ->group(group);
+  app.add_option("--threads", o.threads, "Threads to use (default: all cores); the result does not depend on it")
+      ->type_name("N")
+      ->check(whole_number(1, most_threads))
+      ->group(group);
+  app.add_option("--checkpoint", o.checkpoint, "Write the state here at the end of the growth, and on Ctrl-C")
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option("--resume", o.resume, "Go on from such a state; shape and options must be the same")
+      ->type_name("FILE")
+      ->group(group);
+}
+
+void add_look_options(CLI::App& app, GrowOptions& o) {
+  const std::string group = "Colours";
+  app.add_option("--species", o.species, "Which species is shown (default: the model's last)")
+      ->type_name("NAME")
+      ->group(group);
+  app.add_option("--ramp", o.ramp, "Colours (default: tawny)" + choices(ramp_names()))->type_name("NAME")->group(group);
+  app.add_flag("--invert", o.invert, "Exchange the ends of the ramp")->group(group);
+  app.add_flag("--keep-shape", o.keep_shape,
+               "Colour the shape's own flat triangles, its vertices unmoved, instead of the smooth surface")
+      ->group(group);
+  app.add_option("--detail", o.detail, "Split every triangle into four so often (default: as the colours need)")
+      ->type_name("N")
+      ->check(whole_number(0, most_detail))
+      ->group(group);
+}
+
+void add_output_options(CLI::App& app, GrowOptions& o) {
+  const std::string group = "Output";
+  app.add_option("-o,--output", o.outputs,
+                 "Files for the coated mesh; the extension is the format" + choices(mesh_extensions()))
+      ->type_name("FILE[,FILE]")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->group(group);
+  app.add_option("--picture", o.picture, "File for a picture: .png")->type_name("FILE")->group(group);
+  app.add_option("--picture-size", o.picture_size, "Width and height of the picture, pixels (default: 1024)")
+      ->type_name("N")
+      ->check(whole_number(1, largest_picture))
+      ->group(group);
+  const std::map<std::string, UpAxis> axes = {{"y", UpAxis::y}, {"z", UpAxis::z}};
+  app.add_option_function<std::string>(
+         "--up",
+         [&o, axes](const std::string& name) {
+           const auto axis = axes.find(name);
+           if (axis == axes.end()) throw CLI::ValidationError("--up", unknown_name("axis", name, {"y", "z"}));
+           o.up = axis->second;
+         },
+         "Which axis of the shape points up in the picture: y (default) or z")
+      ->type_name("AXIS")
+      ->group(group);
+  app.add_flag("--json", o.json, "Print what was done as JSON")->group(group);
+  app.add_flag("-q,--quiet", o.quiet, "Print warnings and errors only")->group(group);
+}
+
+Stage::Setting parse_setting(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  Stage::Setting setting{text.substr(0, equals), 0, {}};
+  const char* begin = text.data() + (equals == std::string::npos ? text.size() : equals + 1);
+  const char* const end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(begin, end, setting.value);
+  if (setting.name.empty() || begin == end || error != std::errc{} || last != end || !std::isfinite(setting.value))
+    throw Error(Fault::usage, "--set " + text + ": expected PARAM=VALUE with a number, for example --set s=0.06");
+  return setting;
+}
+
+template <class T, class Target>
+void override(const std::optional<T>& given, Target& target) {
+  if (given) target = *given;
+}
+
+void override(const std::optional<std::string>& given, Given<std::string>& target) {
+  if (given) target = {*given, {}};
+}
+
+/// A setting replaces that of the recipe.
+void override_parameter(std::vector<Stage::Setting>& settings, const Stage::Setting& given) {
+  std::erase_if(settings, [&](const Stage::Setting& s) { return s.name == given.name; });
+  settings.push_back(given);
+}
+
+void apply(const GrowOptions& o, Stage& stage) {
+  override(o.model, stage.model);
+  for (const std::string& text : o.settings) override_parameter(stage.parameters, parse_setting(text));
+  if (o.size) stage.size = {parse_length(*o.size, {}), {}};
+  override(o.method, stage.method);
+  override(o.stepper, stage.stepper);
+  override(o.step, stage.step);
+  override(o.until, stage.until);
+  override(o.steps, stage.steps);
+  override(o.stationary, stage.stationary);
+  override(o.seed, stage.seed);
+  override(o.interpolate, stage.interpolate);
+}
+
+void apply(const GrowOptions& o, Look& look) {
+  if (o.species) look.species = {*o.species, {}};
+  override(o.ramp, look.ramp);
+  override(o.invert, look.invert);
+  override(o.keep_shape, look.keep_shape);
+  override(o.detail, look.detail);
+}
+
+void refuse_input_as_output(const std::string& output, const std::string& shape) {
+  std::error_code ignored;
+  if (!is_builtin_shape(shape) && std::filesystem::equivalent(output, shape, ignored))
+    throw Error(Fault::usage, "the output " + output + " is the input itself; give it another name");
+}
+
+}  // namespace
+
+void add_options(CLI::App& app, GrowOptions& options) {
+  app.add_option("SHAPE", options.shape,
+                 "File to grow on" + choices(readable_extensions()) + "; or builtin:NAME?n=VERTICES" +
+                     choices(builtin_shape_names()) + ". May be left out when the recipe names one")
+      ->type_name("");
+  add_pattern_options(app, options);
+  add_time_options(app, options);
+  add_look_options(app, options);
+  add_output_options(app, options);
+}
+
+Recipe make_recipe(const GrowOptions& options) {
+  Recipe recipe;
+  if (options.recipe) recipe = load_recipe(*options.recipe);
+  if (!options.shape.empty()) recipe.shape = options.shape;
+  if (recipe.shape.empty())
+    throw Error(Fault::usage, "no shape to grow on; name a file or a built-in one, for example builtin:animal");
+  apply(options, recipe.stage);
+  apply(options, recipe.look);
+  return recipe;
+}
+
+void check_outputs(const GrowOptions& options, const std::string& shape) {
+  if (options.outputs.empty() && options.picture.empty())
+    throw Error(Fault::usage, "nothing to write; give -o FILE, --picture FILE or both");
+  for (const std::string& output : options.outputs) {
+    check_mesh_path(output);
+    refuse_input_as_output(output, shape);
+  }
+  if (!options.picture.empty()) check_picture_path(options.picture);
+  if (options.checkpoint.empty()) return;
+  check_folder(options.checkpoint);
+  refuse_input_as_output(options.checkpoint, shape);
+}
+
+}  // namespace pelage

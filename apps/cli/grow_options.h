@@ -1,0 +1,42 @@
+#pragma once
+// The options of pelage grow.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "look/picture.h"
+#include "pelage/recipe.h"
+
+namespace pelage {
+
+/// What was given; what was not is empty and left to the recipe.
+struct GrowOptions {
+  std::string shape;
+  std::optional<std::string> recipe, model, size, method, stepper, species, ramp;
+  std::vector<std::string> settings;  ///< "PARAM=VALUE"
+  std::optional<double> step, until, stationary;
+  std::optional<std::int64_t> steps;
+  std::optional<std::uint64_t> seed;
+  std::optional<int> detail, threads;
+  std::optional<bool> interpolate, invert, keep_shape;
+
+  std::vector<std::string> outputs;
+  std::string picture, checkpoint, resume;
+  int picture_size = 1024;
+  UpAxis up = UpAxis::y;
+  bool json = false, quiet = false;
+};
+
+void add_options(CLI::App& app, GrowOptions& options);
+
+/// The recipe that was named, or an empty one, with the options' values on top. Error(Fault::usage) for what cannot be
+/// understood, and when there is no shape.
+Recipe make_recipe(const GrowOptions& options);
+
+/// Refuses outputs that could not be written after the work: Error(Fault::usage) when there is none, for unknown
+/// extensions and for an output that is the input; Error(Fault::output) for folders.
+void check_outputs(const GrowOptions& options, const std::string& shape);
+
+}  // namespace pelage

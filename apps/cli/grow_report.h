@@ -1,0 +1,33 @@
+#pragma once
+// What pelage grow says it did: lines while it goes, or one JSON object at the end.
+
+#include <string>
+
+#include "command.h"
+#include "io/read_shape.h"
+#include "progress_bar.h"
+#include "run/run.h"
+
+namespace pelage {
+
+class GrowReport {
+ public:
+  enum class Form { lines, json, nothing };
+  GrowReport(Form form, ProgressBar& bar) : form_(form), bar_(bar) {}
+
+  void shape(const std::string& name, const ShapeFile& file);
+  void warning(const std::string& text);
+  void pattern(const std::string& model, const Run& run);
+  void growth(const Run& run, double seconds);
+  void file(const std::string& path);
+  void end(double seconds);
+
+ private:
+  void line(const std::string& label, const std::string& text);
+
+  Form form_;
+  ProgressBar& bar_;
+  Json json_ = Json::object();
+};
+
+}  // namespace pelage

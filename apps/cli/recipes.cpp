@@ -1,0 +1,49 @@
+// pelage recipes: the coats that come with the program.
+
+#include <cstdio>
+#include <memory>
+
+#include "catalog/resolve.h"
+#include "command.h"
+#include "table.h"
+
+namespace pelage {
+
+namespace {
+
+void print_list(const std::vector<std::string>& names) {
+  std::vector<std::vector<std::string>> rows = {{"NAME", "MODEL", "RAMP", "SUMMARY"}};
+  for (const std::string& name : names) {
+    const Recipe r = load_recipe(name);
+    rows.push_back({name, r.stage.model.value, r.look.ramp.value, r.summary});
+  }
+  std::fputs(table(rows).c_str(), stdout);
+}
+
+void print_list_as_json(const std::vector<std::string>& names) {
+  Json list = Json::array();
+  for (const std::string& name : names) {
+    const Recipe r = load_recipe(name);
+    list.push_back({{"name", name},
+                    {"summary", r.summary},
+                    {"shape", r.shape},
+                    {"model", r.stage.model.value},
+                    {"ramp", r.look.ramp.value}});
+  }
+  print_json(list);
+}
+
+}  // namespace
+
+Command add_recipes(CLI::App& parent) {
+  auto json = std::make_shared<bool>(false);
+  CLI::App* app = parent.add_subcommand(
+      "recipes",
+      "List the built-in recipes\n"
+      "These are what grow --recipe NAME knows; --recipe also takes the path of a .toml file of your own.");
+  app->add_flag("--json", *json, "Print the result as JSON");
+  app->footer("Examples:\n  pelage recipes\n  pelage grow --recipe demo -o cub.glb");
+  return {app, [json] { *json ? print_list_as_json(recipe_names()) : print_list(recipe_names()); }};
+}
+
+}  // namespace pelage

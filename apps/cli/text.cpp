@@ -1,0 +1,61 @@
+#include "text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+namespace pelage {
+
+namespace {
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, pattern, values...);
+  return buffer;
+}
+
+}  // namespace
+
+std::string brief(double value) { return format("%.3g", value); }
+
+std::string number(double value) { return format("%.6g", value); }
+
+std::string file_size(std::uintmax_t bytes) {
+  if (bytes < 1000) return std::to_string(bytes) + " bytes";
+  const char* units[] = {"kB", "MB", "GB", "TB"};
+  double value = static_cast<double>(bytes) / 1000;
+  std::size_t unit = 0;
+  for (; value >= 999.5 && unit < 3; ++unit) value /= 1000;
+  return format(value < 9.95 ? "%.1f %s" : "%.0f %s", value, units[unit]);
+}
+
+std::string duration(double seconds) {
+  if (seconds < 9.95) return format("%.1f s", seconds);
+  const long s = std::lround(std::min(seconds, 1e9));
+  if (s < 60) return format("%ld s", s);
+  if (s < 3600) return format("%ld min %ld s", s / 60, s % 60);
+  return format("%ld h %ld min", s / 3600, s % 3600 / 60);
+}
+
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+std::string wrapped(const std::string& text, std::size_t indent, std::size_t width) {
+  std::istringstream words(text);
+  std::string result, line, word;
+  const std::string margin(indent, ' ');
+  while (words >> word) {
+    if (!line.empty() && indent + line.size() + 1 + word.size() > width) {
+      result += margin + line + "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  return result + margin + line + "\n";
+}
+
+}  // namespace pelage

@@ -1,0 +1,117 @@
+#include "usage.h"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "base/suggest.h"
+#include "pelage/error.h"
+
+namespace pelage {
+
+namespace {
+
+/// "see pelage grow --help", for the command in use.
+std::string help_hint(const CLI::App& app) {
+  std::string command = app.get_name();
+  for (const CLI::App* used : app.get_subcommands()) command += " " + used->get_name();
+  return "see " + command + " --help";
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+/// CLI11 names the option in front of the first colon.
+std::string message(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const std::string option = text.substr(0, text.find(':'));
+  if (error.get_name() != "ArgumentMismatch") return text;
+  return option + (text.find("missing") != std::string::npos ? " needs a value" : " is given more than once");
+}
+
+std::string unknown_option(const std::string& argument, const CLI::App& app) {
+  const std::string name = argument.substr(0, argument.find('='));
+  const std::string hint = did_you_mean(name, option_names(app));
+  return "unknown option \"" + name + "\"; " + (hint.empty() ? "" : hint + " ");
+}
+
+std::string unknown_command(const std::string& word, const std::vector<Command>& commands) {
+  std::vector<std::string> names;
+  for (const Command& command : commands) names.push_back(command.app->get_name());
+  return unknown_name("command", word, names) + "; ";
+}
+
+/// Arguments that nobody wanted.
+void refuse_rest(const CLI::App& app, const std::vector<Command>& commands) {
+  const std::vector<std::string> rest = app.remaining(true);
+  if (rest.empty()) return;
+  const bool has_command = !app.get_subcommands().empty();
+  const CLI::App& used = has_command ? *app.get_subcommands().front() : app;
+  for (const std::string& argument : rest)
+    if (argument.size() > 1 && argument[0] == '-')
+      throw Error(Fault::usage, unknown_option(argument, used) + help_hint(app));
+  throw Error(Fault::usage, (has_command ? "too many arguments: \"" + rest.front() + "\" is one more than expected; "
+                                         : unknown_command(rest.front(), commands)) +
+                                help_hint(app));
+}
+
+std::optional<double> parse_number(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return {};
+  return value;
+}
+
+CLI::Validator number_check(const std::string& wanted, bool (*fits)(double)) {
+  return CLI::Validator(
+      [wanted, fits](std::string& text) {
+        const std::optional<double> value = parse_number(text);
+        return value && fits(*value) ? "" : "\"" + text + "\" is not " + wanted;
+      },
+      "");
+}
+
+}  // namespace
+
+const Command& parse_arguments(CLI::App& app, const std::vector<Command>& commands, int argc, char** argv) {
+  app.allow_extras();
+  for (const Command& command : commands) command.app->allow_extras();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success&) {
+    throw;
+  } catch (const CLI::ParseError& error) {
+    throw Error(Fault::usage, message(error) + "; " + help_hint(app));
+  }
+  refuse_rest(app, commands);
+  for (const Command& command : commands)
+    if (command.app->parsed()) return command;
+  throw Error(Fault::usage, "no command given; " + help_hint(app));
+}
+
+CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
+  return CLI::Validator(
+      [least, most](std::string& text) -> std::string {
+        std::int64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error == std::errc{} && end == text.data() + text.size() && value >= least && value <= most) return "";
+        return "\"" + text + "\" is not a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+      },
+      "");
+}
+
+CLI::Validator positive_number() {
+  return number_check("a number greater than 0", [](double x) { return x > 0; });
+}
+
+CLI::Validator number_at_least_zero() {
+  return number_check("a number of at least 0", [](double x) { return x >= 0; });
+}
+
+}  // namespace pelage

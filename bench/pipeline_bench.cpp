@@ -1,0 +1,108 @@
+// Seconds of the parts of a run at growing sizes, with one and two threads: reading and checking, assembly, one step,
+// and the whole from shape to coloured mesh. Arguments: vertices, threads.
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "base/parallel.h"
+#include "catalog/resolve.h"
+#include "io/read_shape.h"
+#include "io/write_mesh.h"
+#include "look/dress.h"
+#include "run/run.h"
+#include "shape/generators.h"
+
+namespace pelage {
+namespace {
+
+const TriangleMesh& sphere(std::int64_t vertices) {
+  static std::map<std::int64_t, TriangleMesh> made;
+  auto it = made.find(vertices);
+  if (it == made.end())
+    it = made.emplace(vertices, builtin_shape("builtin:sphere?n=" + std::to_string(vertices))).first;
+  return it->second;
+}
+
+int threads(const benchmark::State& state) { return static_cast<int>(state.range(1)); }
+
+/// A pattern of 10 vertices per wavelength, so that no refinement is needed.
+Program turing_program(std::int64_t vertices) {
+  Recipe recipe;
+  const double edge = std::sqrt(4 * 3.14159265358979 / static_cast<double>(vertices) * 2 / std::sqrt(3.0));
+  recipe.stage.size = Given<Length>{{10 * edge, false}, {}};
+  return resolve(recipe, sphere(vertices));
+}
+
+void read_and_check(benchmark::State& state, const char* extension) {
+  const ThreadLimit limit(threads(state));
+  const std::string path =
+      (std::filesystem::temp_directory_path() / ("pelage_bench" + std::string(extension))).string();
+  write_mesh(sphere(state.range(0)), path);
+  for (auto _ : state) benchmark::DoNotOptimize(read_shape(path));
+  std::filesystem::remove(path);
+}
+
+void assemble(benchmark::State& state, const char* method) {
+  const ThreadLimit limit(threads(state));
+  const TriangleMesh& mesh = sphere(state.range(0));
+  const Discretisation d = make_discretisation(method, make_topology(mesh.points.size(), mesh.triangles));
+  for (auto _ : state) {
+    const Assembler assembler(d);
+    benchmark::DoNotOptimize(assembler.mass(mesh.points));
+    benchmark::DoNotOptimize(assembler.stiffness(mesh.points));
+  }
+}
+
+void tabulate(benchmark::State& state) {
+  const ThreadLimit limit(threads(state));
+  const TriangleMesh& mesh = sphere(state.range(0));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(make_discretisation("loop", make_topology(mesh.points.size(), mesh.triangles)));
+}
+
+/// One step of the default stepper in the middle of the growth of a pattern.
+void step(benchmark::State& state) {
+  const ThreadLimit limit(threads(state));
+  Program program = turing_program(state.range(0));
+  program.stationary = 0;
+  Run run(std::move(program));
+  run.advance(40);
+  std::int64_t iterations = run.summary().iterations, steps = run.summary().steps;
+  for (auto _ : state) run.advance(1);
+  state.counters["cg_iterations"] =
+      static_cast<double>(run.summary().iterations - iterations) / static_cast<double>(run.summary().steps - steps) / 2;
+}
+
+void whole_run(benchmark::State& state) {
+  const ThreadLimit limit(threads(state));
+  for (auto _ : state) {
+    Run run(turing_program(state.range(0)));
+    while (!run.done()) run.advance(100);
+    benchmark::DoNotOptimize(dress(run.fields(), Look{}));
+    state.counters["steps"] = static_cast<double>(run.summary().steps);
+  }
+}
+
+void sizes(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"vertices", "threads"})->ArgsProduct({{10242, 40962, 163842, 655362}, {1, 2}});
+  b->Unit(benchmark::kMillisecond)->UseRealTime()->MinTime(0.2);
+}
+
+void small_sizes(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"vertices", "threads"})->ArgsProduct({{10242, 40962}, {1, 2}});
+  b->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(1);
+}
+
+BENCHMARK_CAPTURE(read_and_check, ply, ".ply")->Apply(sizes);
+BENCHMARK_CAPTURE(read_and_check, obj, ".obj")->Apply(sizes);
+BENCHMARK(tabulate)->Apply(sizes);
+BENCHMARK_CAPTURE(assemble, loop, "loop")->Apply(sizes);
+BENCHMARK_CAPTURE(assemble, linear, "linear")->Apply(sizes);
+BENCHMARK(step)->Apply(sizes);
+BENCHMARK(whole_run)->Apply(small_sizes);
+
+}  // namespace
+}  // namespace pelage

@@ -1,0 +1,100 @@
+#include "time/step_limit.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <limits>
+
+#include "react/kinetics.h"
+
+namespace pelage {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+struct Linearisation {
+  MatrixXd jacobian;
+  VectorXd diffusion, c2;  ///< c2: the implicit part of the paper's scheme
+  double growth = 0;       ///< of the fastest mode, at least 0
+};
+
+/// C2 of every species at a uniform state.
+VectorXd split_at(const Model& model, const std::vector<double>& state) {
+  const std::vector<Point> place = {Point{}};
+  Places places;
+  places.positions = place;
+  places.normals = place;
+  const Kinetics kinetics(model, places, 0);
+  const std::size_t n = state.size();
+  std::vector<double> c2(n), c3(n);
+  std::vector<const double*> u;
+  std::vector<double*> c2_out, c3_out;
+  for (std::size_t i = 0; i < n; ++i) {
+    u.push_back(&state[i]);
+    c2_out.push_back(&c2[i]);
+    c3_out.push_back(&c3[i]);
+  }
+  kinetics.split(u, 0, 0, 1, c2_out, c3_out);
+  return Eigen::Map<VectorXd>(c2.data(), static_cast<Eigen::Index>(n));
+}
+
+/// One step of the scheme for a wave with k^2 = mu, as a matrix on the amplitudes (of two steps for sbdf2).
+MatrixXd amplification(const Linearisation& l, const std::string& stepper, double dt, double mu) {
+  const Eigen::Index n = l.jacobian.rows();
+  const MatrixXd one = MatrixXd::Identity(n, n);
+  const MatrixXd decay = (mu * l.diffusion).asDiagonal();
+  if (stepper == "explicit") return one + dt * (l.jacobian - decay);
+  if (stepper == "paper") {
+    const MatrixXd c2 = l.c2.asDiagonal();
+    return (one - dt * c2 + dt * decay).inverse() * (one + dt * (l.jacobian - c2));
+  }
+  const MatrixXd inverse = (1.5 * one + dt * decay).inverse();
+  MatrixXd g = MatrixXd::Zero(2 * n, 2 * n);
+  g.topLeftCorner(n, n) = inverse * (2 * one + 2 * dt * l.jacobian);
+  g.topRightCorner(n, n) = -inverse * (0.5 * one + dt * l.jacobian);
+  g.bottomLeftCorner(n, n) = one;
+  return g;
+}
+
+bool stable(const Linearisation& l, const std::string& stepper, double dt, double largest_k2) {
+  // The schemes are first-order at least: round-off and the truncation of exp() stay within the allowance.
+  const double allowed = std::exp(1.5 * dt * l.growth) * (1 + 1e-6);
+  constexpr int waves = 80;
+  for (int i = 0; i <= waves; ++i) {
+    const double mu = i == 0 ? 0 : largest_k2 * std::pow(1e-6, 1 - static_cast<double>(i) / waves);
+    const MatrixXd g = amplification(l, stepper, dt, mu);
+    if (!g.allFinite() || g.eigenvalues().cwiseAbs().maxCoeff() > allowed) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+double largest_stable_step(const Model& model, const std::string& stepper, double largest_k2) {
+  const Stability s = analyse(model);
+  if (s.steady_states.empty()) return std::numeric_limits<double>::infinity();
+  const auto n = static_cast<Eigen::Index>(model.species_count());
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Linearisation l;
+  l.jacobian = Eigen::Map<const RowMajor>(s.jacobian.data(), n, n);
+  l.diffusion = Eigen::Map<const VectorXd>(s.diffusion.data(), n);
+  l.c2 = split_at(model, s.steady_states[s.chosen]);
+  l.growth = std::max(0.0, s.growth);
+  const double rate = l.jacobian.cwiseAbs().maxCoeff() + largest_k2 * l.diffusion.maxCoeff();
+  if (!(rate > 0)) return std::numeric_limits<double>::infinity();
+  constexpr double ratio = 1.1;
+  double good = 1e-3 / rate;
+  while (stable(l, stepper, good * ratio, largest_k2)) {
+    good *= ratio;
+    if (good * rate > 1e9) return std::numeric_limits<double>::infinity();
+  }
+  double bad = good * ratio;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = (good + bad) / 2;
+    (stable(l, stepper, middle, largest_k2) ? good : bad) = middle;
+  }
+  return good;
+}
+
+}  // namespace pelage

@@ -1,0 +1,238 @@
+#!/usr/bin/env bash
+# The command line as its users meet it: exit codes, messages, files, interruption. Usage: SOURCE BINARY
+set -uo pipefail
+source=$1
+pelage=$2/bin/pelage
+[ -x "$pelage" ] || { echo "no $pelage: the program is not part of this build"; exit 77; }
+work=$2/cli_test
+rm -rf "$work" && mkdir -p "$work" && cd "$work" || exit 1
+failures=0
+
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+
+# expect EXIT_CODE PATTERN ARGUMENTS...: runs pelage; PATTERN (extended) must match its one line on stderr.
+expect() {
+  local code=$1 pattern=$2
+  shift 2
+  "$pelage" "$@" >stdout 2>stderr </dev/null
+  local got=$?
+  [ $got -eq "$code" ] || fail "pelage $*: exit code $got instead of $code: $(cat stderr)"
+  grep -v '^pelage: [a-z]*ing' stderr >errors
+  [ "$(wc -l <errors)" -eq 1 ] || fail "pelage $*: $(wc -l <errors) lines of errors instead of 1"
+  grep -qE "^pelage: error: $pattern" errors || fail "pelage $*: the message \"$(cat errors)\" does not match $pattern"
+}
+
+# succeed ARGUMENTS...: runs pelage, which must exit with 0.
+succeed() {
+  "$pelage" "$@" >stdout 2>stderr </dev/null || fail "pelage $*: exit code $?: $(cat stderr)"
+}
+
+is_json() { python3 -m json.tool <"$1" >/dev/null || fail "$1 of the last command is not JSON"; }
+
+# json EXPRESSION: whether the expression about d, the JSON of the last command, holds.
+json() { python3 -c "import json,sys; d=json.load(open('stdout')); sys.exit(not ($1))" || fail "JSON: not $1"; }
+
+sphere=builtin:sphere?n=642
+quick=(--size 0.3 --steps 3 --detail 0)
+
+# --- help and version ----------------------------------------------------------------------------------
+succeed --version
+grep -qE '^pelage [0-9]+\.[0-9]+\.[0-9]+$' stdout || fail "--version says $(cat stdout)"
+"$pelage" >stdout 2>stderr
+[ $? -eq 2 ] && [ ! -s stdout ] && grep -q Usage stderr || fail "no arguments: help on stderr and exit code 2 expected"
+succeed --help
+for command in grow check models recipes verify; do
+  grep -q "^  $command " stdout || fail "--help does not list $command"
+done
+for command in grow check models recipes verify; do
+  succeed $command --help
+  grep -q "pelage $command" stdout || fail "$command --help has no example"
+  [ "$(wc -L <stdout)" -le 100 ] || fail "$command --help is wider than 100 columns"
+done
+
+# --- wrong usage: 2 --------------------------------------------------------------------------------------
+expect 2 'unknown command "gorw".*did you mean "grow"' gorw cow.obj
+expect 2 'unknown option "--sise".*did you mean "--size"' grow $sphere --sise 0.1 -o a.ply
+expect 2 'unknown option "--jsno".*did you mean "--json"' check --jsno cow.obj
+expect 2 'unknown option "--verson".*did you mean "--version"' --verson
+expect 2 '--model needs a value' grow $sphere -o a.ply --model
+expect 2 '--steps is given more than once' grow $sphere --steps 1 --steps 2
+expect 2 'too many arguments: "b"' check a b
+expect 2 'SHAPE is required' check
+expect 2 '--steps: "abc" is not a whole number' grow $sphere -o a.ply --steps abc
+expect 2 '--steps: "1.5" is not a whole number' grow $sphere -o a.ply --steps 1.5
+expect 2 '--step: "0" is not a number greater than 0' grow $sphere -o a.ply --step 0
+expect 2 '--until: "nan" is not a number' grow $sphere -o a.ply --until nan
+expect 2 '--stationary: "-1" is not' grow $sphere -o a.ply --stationary -1
+expect 2 '--threads: "0" is not' grow $sphere -o a.ply --threads 0
+expect 2 '--up: unknown axis "q"' grow $sphere -o a.ply --up q
+expect 2 "'4x' is not a length" grow $sphere -o a.ply --size 4x
+expect 2 '--set s: expected PARAM=VALUE' grow $sphere -o a.ply --set s
+expect 2 '--set s=1e: expected PARAM=VALUE' grow $sphere -o a.ply --set s=1e
+expect 2 'nothing to write' grow $sphere
+expect 2 'no shape to grow on' grow -o a.ply
+expect 2 'unknown model "turin".*did you mean "turing"' grow missing.obj -o a.ply --model turin
+expect 2 'unknown recipe "dem".*did you mean "demo"' grow --recipe dem -o a.ply
+expect 2 'unknown ramp "leopart".*did you mean "leopard"' grow $sphere -o a.ply --ramp leopart
+expect 2 'unknown method "lopo".*did you mean "loop"' grow $sphere -o a.ply --method lopo
+expect 2 'unknown stepper "sbdf".*did you mean "sbdf2"' grow $sphere -o a.ply --stepper sbdf
+expect 2 'unknown species "c"' grow $sphere -o a.ply --species c
+expect 2 'model "turing" has no parameter "unevennes"' grow $sphere -o a.ply --set unevennes=1
+expect 2 'parameter "s" is 7' grow $sphere -o a.ply --set s=7
+expect 2 'unknown built-in shape "anmal".*did you mean "animal"' check builtin:anmal
+expect 2 'a.xyz: cannot write' grow $sphere -o a.ply,a.xyz
+expect 2 'a.jpg' grow $sphere --picture a.jpg
+printf 'name = "r"\n[stage]\nmodel = "turing"\nsiez = 0.1\n' >wrong.toml
+expect 2 'wrong.toml:4.*siez.*did you mean "size"' grow $sphere --recipe wrong.toml -o a.ply
+expect 2 'unknown model "turin"' models turin
+
+# --- unusable input: 3 -----------------------------------------------------------------------------------
+printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 nan 0\n3 0 1 2\n' >nan.off
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n' >index.obj
+expect 3 'missing.obj: cannot be opened' check missing.obj
+expect 3 'missing.toml: cannot be read' grow $sphere --recipe missing.toml -o a.ply
+expect 3 'nan.off:5' check nan.off
+expect 3 'index.obj:4' grow index.obj -o a.ply
+expect 3 'nan.off: .*checkpoint' grow $sphere "${quick[@]}" --resume nan.off -o a.ply
+
+# --- unwritable output: 5, before any work ------------------------------------------------------------------
+mkdir -p folder.ply folder.png
+expect 5 'nowhere/a.ply: the folder nowhere does not exist' grow missing.obj -o nowhere/a.ply
+expect 5 'nowhere/a.png: ' grow missing.obj --picture nowhere/a.png
+expect 5 'nowhere/a: ' grow missing.obj -o a.ply --checkpoint nowhere/a
+expect 5 'folder.ply: ' grow missing.obj -o folder.ply
+expect 5 'folder.png: ' grow missing.obj --picture folder.png
+[ ! -e a.ply ] || fail "an output appeared although nothing was grown"
+"$pelage" models >/dev/full 2>stderr
+[ $? -eq 5 ] || fail "a full standard output is not reported"
+
+# --- the input is safe ---------------------------------------------------------------------------------------
+succeed grow $sphere "${quick[@]}" --keep-shape -o mine.ply
+expect 2 'the output .*mine.ply is the input' grow mine.ply -o "$work/mine.ply"
+
+# --- failed computation: 4 -----------------------------------------------------------------------------------
+expect 4 'step [0-9]+' grow $sphere --size 0.3 --stepper explicit --step 1000 --until 1e9 -o failed.ply
+[ ! -e failed.ply ] || fail "a failed run left an output"
+
+# --- JSON ----------------------------------------------------------------------------------------------------
+for arguments in "models --json" "models turing --json" "recipes --json" "check $sphere --json"; do
+  succeed $arguments
+  is_json stdout
+done
+succeed models --json
+json '"turing" in [m["name"] for m in d] and all(m["parameters"] and m["title"] for m in d)'
+succeed check $sphere --json
+json 'd["vertices"] == 642 and d["genus"] == 0 and d["closed"] and d["valences"]["5"] == 12'
+"$pelage" check missing.obj --json >stdout 2>stderr
+is_json stdout
+json 'd["exit"] == 3 and "missing.obj" in d["error"]'
+"$pelage" grow $sphere --sise 1 --json >stdout 2>stderr
+json 'd["exit"] == 2'
+succeed grow $sphere "${quick[@]}" -o a.ply,a.glb --picture a.png --picture-size 32 --json
+is_json stdout
+json 'd["growth"]["steps"] == 3 and d["growth"]["status"] == "steps_reached"'
+json '[f["path"] for f in d["files"]] == ["a.ply", "a.glb", "a.png"] and all(f["bytes"] > 0 for f in d["files"])'
+
+# --- what is said, and where ---------------------------------------------------------------------------------
+succeed grow $sphere "${quick[@]}" -o a.ply --quiet
+[ ! -s stdout ] && [ ! -s stderr ] || fail "--quiet is not quiet"
+succeed grow $sphere "${quick[@]}" -o a.ply
+grep -q '^wrote *a.ply' stdout && grep -q '^growth *3 steps' stdout || fail "grow does not say what it did"
+grep -q $'\r' stderr && fail "a progress bar went into a pipe"
+succeed models turing
+grep -q 'db/dt = div(Db grad b)' stdout && grep -q unevenness stdout || fail "models turing shows no equations"
+
+# --- recipes: options override them --------------------------------------------------------------------------
+printf 'shape = "%s"\n[stage]\nmodel = "turing"\nsteps = 2\nsize = 0.3\n[stage.parameters]\ns = 0.06\n' $sphere >own.toml
+succeed grow --recipe own.toml --set Da=0.15 --steps 1 --detail 0 -o a.ply --json
+json 'd["growth"]["steps"] == 1 and d["parameters"]["s"] == 0.06 and d["parameters"]["Da"] == 0.15'
+succeed grow --recipe own.toml --set s=0.07,Da=0.16 --size 1.5u --detail 0 -o a.ply --json
+json 'd["growth"]["steps"] == 2 and d["parameters"]["s"] == 0.07 and d["parameters"]["Da"] == 0.16 and d["size"] == 1.5'
+
+# --- a vertex with too many edges for Loop -------------------------------------------------------------------
+python3 - <<'PYTHON'
+import math
+n = 300
+with open("wheel.off", "w") as f:
+    print(f"OFF\n{n + 1} {n} 0\n0 0 0", file=f)
+    for i in range(n):
+        print(math.cos(2 * math.pi * i / n), math.sin(2 * math.pi * i / n), 0, file=f)
+    for i in range(n):
+        print(3, 0, 1 + i, 1 + (i + 1) % n, file=f)
+PYTHON
+succeed grow wheel.off --size 2u --steps 1 --detail 0 -o a.ply
+grep -q 'pelage: warning: a vertex has 300 edges.*linear' stderr || fail "no warning about the valence"
+expect 3 'a vertex has 300 edges' grow wheel.off --size 2u --steps 1 --method loop -o a.ply
+
+# --- same bits: threads, and a run that was stopped and resumed ------------------------------------------------
+grown=(grow builtin:animal?n=1000 --size 0.15 --detail 1)
+succeed "${grown[@]}" --steps 100 --threads 1 -o one.ply
+succeed "${grown[@]}" --steps 100 --threads 2 -o two.ply
+cmp one.ply two.ply || fail "1 and 2 threads give different files"
+succeed "${grown[@]}" --steps 40 --checkpoint state -o forty.ply
+succeed "${grown[@]}" --steps 100 --resume state -o resumed.ply
+cmp one.ply resumed.ply || fail "a resumed run gives a different file"
+cmp -s one.ply forty.ply && fail "40 and 100 steps give the same file: the comparison shows nothing"
+expect 3 'state: .*another shape' grow $sphere "${quick[@]}" --resume state -o a.ply
+
+# --- the artist's mesh comes back ------------------------------------------------------------------------------
+python3 - <<'PYTHON'
+import math, random
+random.seed(1)
+n, m = 24, 12  # a bumpy open tube: boundary and irregular coordinates
+with open("tube.obj", "w") as f:
+    for j in range(m):
+        for i in range(n):
+            a, r = 2 * math.pi * i / n, 1 + 0.05 * random.random()
+            print("v", r * math.cos(a), r * math.sin(a), 0.26 * j, file=f)
+    for j in range(m - 1):
+        for i in range(n):
+            a, b = j * n + i + 1, j * n + (i + 1) % n + 1
+            print("f", a, b, b + n, file=f)
+            print("f", a, b + n, a + n, file=f)
+PYTHON
+succeed grow tube.obj --size 0.2 --steps 5 --keep-shape -o tube_out.obj
+python3 - <<'PYTHON' || fail "--keep-shape moved vertices"
+import sys
+def vertices(path):
+    return [tuple(map(float, l.split()[1:4])) for l in open(path) if l.startswith("v ")]
+before, after = vertices("tube.obj"), vertices("tube_out.obj")
+far = max(abs(x - y) for p, q in zip(before, after) for x, y in zip(p, q))
+sys.exit(len(after) < len(before) or far > 1e-6)
+PYTHON
+
+# --- Ctrl-C ------------------------------------------------------------------------------------------------------
+mkdir interrupted
+long=(grow builtin:animal?n=4000 --size 0.03 --until 1e9 --stationary 0 -o interrupted/a.ply)
+# interrupt EXTRA ARGUMENTS: sends SIGINT once the growth has begun. (Jobs in the background ignore it unless told.)
+interrupt() {
+  python3 - "$pelage" "${long[@]}" "$@" <<'PYTHON' >interrupt.log
+import signal, subprocess, sys, time
+signal.signal(signal.SIGINT, signal.default_int_handler)
+run = subprocess.Popen(sys.argv[1:], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+text = ""
+while "pelage: growing" not in text:
+    line = run.stderr.readline()
+    if not line:
+        break
+    text += line
+time.sleep(1)
+sent = time.monotonic()
+run.send_signal(signal.SIGINT)
+text += run.stderr.read()
+print(run.wait(), f"{time.monotonic() - sent:.2f} s", text.splitlines()[-1])
+PYTHON
+  cat interrupt.log
+}
+interrupt
+grep -q '^130 .*pelage: error: interrupted at [0-9]* steps' interrupt.log || fail "Ctrl-C: $(cat interrupt.log)"
+[ -z "$(ls interrupted)" ] || fail "Ctrl-C left files: $(ls interrupted)"
+interrupt --checkpoint interrupted/state
+grep -q '^130 .*--resume interrupted/state' interrupt.log || fail "Ctrl-C with a checkpoint: $(cat interrupt.log)"
+[ "$(ls interrupted)" = state ] || fail "Ctrl-C with a checkpoint left: $(ls interrupted)"
+
+[ $failures -eq 0 ] && echo "all right"
+exit $((failures > 0))
