@@ -13,15 +13,6 @@ find_library(TINYGLTF_LIBRARY tinygltf REQUIRED)
 target_link_libraries(pelage_core PUBLIC TBB::tbb)
 target_compile_definitions(pelage_core PUBLIC $<BUILD_INTERFACE:PELAGE_HAS_TBB>)
 
-if(PELAGE_WITH_CHOLMOD)
-  find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
-  find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
-  target_sources(pelage_core PRIVATE src/linalg/cholmod.cpp)
-  target_include_directories(pelage_core SYSTEM PRIVATE ${CHOLMOD_INCLUDE_DIR})
-  target_link_libraries(pelage_core PUBLIC ${CHOLMOD_LIBRARY})
-  target_compile_definitions(pelage_core PRIVATE PELAGE_HAS_CHOLMOD)
-endif()
-
 # --- the library: core + files + pictures + catalogue ---------------------------------------------------
 file(GLOB full_sources CONFIGURE_DEPENDS src/recipe/*.cpp src/io/*.cpp src/look/*.cpp src/verify/*.cpp src/catalog/*.cpp)
 

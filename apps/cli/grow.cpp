@@ -138,7 +138,7 @@ void grow(const GrowOptions& options) {
   if (!options.checkpoint.empty()) report.file(options.checkpoint);
 
   progress("colouring", 0);
-  const TriangleMesh coat = dress(run, recipe.look);
+  const TriangleMesh coat = dress(run.fields(), recipe.look);
   write_outputs(options, coat, progress, report);
   report.end(total.seconds());
 }
