@@ -47,6 +47,10 @@ SolveReport ConjugateGradient::solve(const SparseMatrix& a, const Vector& invers
     report.converged = true;
     return report;
   }
+  if (!std::isfinite(b_norm)) {  // no residual is small or large beside it
+    report.residual = b_norm;
+    return report;
+  }
   apply(a, x, q_);
   r_.resize(b.size());
   p_.setZero(b.size());

@@ -204,6 +204,11 @@ class Reader {
   std::size_t at_ = 0;
 };
 
+bool has_sizes(const std::vector<Vector>& fields, std::size_t count, Eigen::Index size) {
+  return fields.size() == count &&
+         std::all_of(fields.begin(), fields.end(), [&](const Vector& f) { return f.size() == size; });
+}
+
 }  // namespace
 
 std::string Run::checkpoint() const {
@@ -239,8 +244,12 @@ void Run::restore(const std::string& bytes) {
     state.past.push_back(r.fields());
   }
   state.past_rates = r.fields();
-  bool fits = r.at_end() && state.now.size() == state_.now.size();
-  for (std::size_t i = 0; fits && i < state.now.size(); ++i) fits = state.now[i].size() == state_.now[i].size();
+  const System& system = operators_->system();
+  const auto unknowns = system.mass->rows();
+  bool fits = r.at_end() && has_sizes(state.now, state_.now.size(), unknowns);
+  for (const auto& fields : state.past) fits = fits && has_sizes(fields, state_.now.size(), unknowns);
+  if (program_.stepper == "sbdf2" && !state.past.empty())
+    fits = fits && has_sizes(state.past_rates, state_.now.size(), system.sampling->count());
   if (!fits) throw Error(Fault::input, "the checkpoint belongs to another shape, size or model");
   state_ = std::move(state);
   step_ = step;

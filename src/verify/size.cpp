@@ -10,7 +10,7 @@ namespace pelage {
 
 namespace {
 
-constexpr double size = 0.5;  // about 55 spots on the unit sphere
+constexpr double size = 0.6;  // about 40 spots on the unit sphere
 
 /// Measured wavelength of the finished pattern over the size that was asked for. Of the faster diffusing species: its
 /// pattern has hardly any harmonics, which would shorten the measured length.
@@ -19,7 +19,7 @@ double relative_wavelength(Triangulation triangulation) {
   recipe.stage.model.value = "turing";
   recipe.stage.size = Given<Length>{{size, false}, {}};
   recipe.stage.interpolate = true;
-  Run run(resolve(recipe, unit_sphere(triangulation, 800)));
+  Run run(resolve(recipe, unit_sphere(triangulation, 1002)));
   while (!run.done()) run.advance(100);
   if (run.summary().status == RunStatus::failed) return 0;
   const Operators& o = run.operators();

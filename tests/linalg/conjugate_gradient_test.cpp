@@ -69,6 +69,16 @@ TEST(ConjugateGradient, SaysWhenItDoesNotConverge) {
   EXPECT_GT(report.residual, 1e-12);
 }
 
+/// Every residual would be at most a fraction of an infinite right side.
+TEST(ConjugateGradient, InfiniteRightSidesDoNotConverge) {
+  const SparseMatrix a = chain(20, 2.5);
+  for (double bad : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN(), 1e200}) {
+    Vector x = Vector::Zero(20), b = Vector::Ones(20);
+    b[7] = bad;
+    EXPECT_FALSE(ConjugateGradient().solve(a, diagonal(a).cwiseInverse(), b, x).converged);
+  }
+}
+
 TEST(ConjugateGradient, SameBitsForAnyNumberOfThreads) {
   const SparseMatrix a = chain(50000, 2.01);
   const Vector b = random_vector(50000, 7);

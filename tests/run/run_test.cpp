@@ -1,0 +1,197 @@
+#include "run/run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/parallel.h"
+#include "catalog/resolve.h"
+#include "pelage/error.h"
+#include "shape/generators.h"
+
+namespace pelage {
+namespace {
+
+Recipe small_recipe(const std::string& model = "turing") {
+  Recipe recipe;
+  recipe.stage.model.value = model;
+  recipe.stage.size = Given<Length>{{0.5, true}, {}};
+  return recipe;
+}
+
+Run start(const Recipe& recipe, const std::string& shape = "builtin:sphere?n=362") {
+  return Run(resolve(recipe, builtin_shape(shape)));
+}
+
+void expect_same(const Run& a, const Run& b) {
+  ASSERT_EQ(a.coefficients().size(), b.coefficients().size());
+  for (std::size_t i = 0; i < a.coefficients().size(); ++i) EXPECT_EQ(a.coefficients()[i], b.coefficients()[i]);
+  EXPECT_EQ(a.summary().time, b.summary().time);
+  EXPECT_EQ(a.summary().steps, b.summary().steps);
+  EXPECT_EQ(a.summary().step, b.summary().step);
+  EXPECT_EQ(a.checkpoint(), b.checkpoint());
+}
+
+class EveryStepper : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Steppers, EveryStepper, ::testing::ValuesIn(stepper_names()),
+                         [](const auto& name) { return name.param; });
+
+TEST_P(EveryStepper, TwoSlicesAreOneSliceBitForBit) {
+  Recipe recipe = small_recipe();
+  recipe.stage.stepper.value = GetParam();
+  if (GetParam() != "sbdf2") recipe.stage.step = 0.02;
+  auto whole = start(recipe), sliced = start(recipe), resumed = start(recipe);
+  whole.advance(50);
+  sliced.advance(20);
+  const std::string checkpoint = sliced.checkpoint();
+  sliced.advance(30);
+  expect_same(whole, sliced);
+  resumed.restore(checkpoint);
+  resumed.advance(30);
+  expect_same(whole, resumed);
+  EXPECT_GT((whole.coefficients()[0].array() - whole.coefficients()[0].mean()).matrix().norm(), 0);
+}
+
+TEST(Run, FortyAndSixtyStepsAreAHundred) {
+  auto whole = start(small_recipe()), sliced = start(small_recipe());
+  whole.advance(100);
+  sliced.advance(40);
+  sliced.advance(60);
+  expect_same(whole, sliced);
+}
+
+TEST(Run, SameBitsForAnyNumberOfThreads) {
+  auto several = start(small_recipe(), "builtin:animal?n=2000");
+  several.advance(30);
+  const ThreadLimit limit(1);
+  auto one = start(small_recipe(), "builtin:animal?n=2000");
+  one.advance(30);
+  expect_same(several, one);
+}
+
+TEST(Run, CheckpointAtAnyStepContinuesWithTheSameBits) {
+  auto whole = start(small_recipe());
+  for (int k = 0; k < 6; ++k) {  // the first steps, when the scheme has less of a past
+    auto resumed = start(small_recipe());
+    resumed.restore(whole.checkpoint());
+    whole.advance(1);
+    resumed.advance(1);
+    expect_same(whole, resumed);
+  }
+}
+
+TEST(Run, DamagedCheckpointsAreRefused) {
+  auto run = start(small_recipe());
+  run.advance(5);
+  const std::string good = run.checkpoint();
+  const std::vector<Vector> before = run.coefficients();
+  EXPECT_THROW(run.restore(""), Error);
+  EXPECT_THROW(run.restore("something else"), Error);
+  EXPECT_THROW(run.restore(good + "x"), Error);
+  for (std::size_t length = 0; length < good.size(); length += 97)
+    EXPECT_THROW(run.restore(good.substr(0, length)), Error);
+  std::string huge = good;  // a length that no memory holds
+  for (std::size_t i = 52; i < 60; ++i) huge[i] = '\x7f';
+  EXPECT_THROW(run.restore(huge), Error);
+  EXPECT_THROW(start(small_recipe(), "builtin:sphere?n=162").restore(good), Error);
+  Recipe recipe = small_recipe();
+  recipe.stage.stepper.value = "paper";
+  recipe.stage.step = 0.02;
+  auto other = start(recipe);
+  other.advance(2);
+  EXPECT_THROW(run.restore(other.checkpoint()), Error);
+  EXPECT_EQ(run.coefficients()[0], before[0]);
+}
+
+/// Every number of the history must fit, too: a checkpoint whose earlier states have another size would be read beyond
+/// their ends.
+TEST(Run, CheckpointsWithADamagedHistoryAreRefused) {
+  auto run = start(small_recipe());
+  run.advance(5);
+  const std::string good = run.checkpoint();
+  const auto n = static_cast<std::uint64_t>(run.coefficients()[0].size());
+  const std::string size(reinterpret_cast<const char*>(&n), sizeof n);
+  std::size_t at = good.find(size);
+  int seen = 0;
+  for (; at != std::string::npos; at = good.find(size, at + 8), ++seen) {
+    std::string bad = good.substr(0, at);
+    const std::uint64_t less = n - 1;
+    bad.append(reinterpret_cast<const char*>(&less), sizeof less);
+    bad += good.substr(at + 16);
+    EXPECT_THROW(run.restore(bad), Error) << "field " << seen;
+  }
+  EXPECT_EQ(seen, 2 + 2 * 2 + 2);  // two species: now, two earlier states, and the samples' rates
+}
+
+TEST(Run, StopsAfterTheGivenSteps) {
+  Recipe recipe = small_recipe();
+  recipe.stage.steps = 7;
+  auto run = start(recipe);
+  run.advance(1000);
+  EXPECT_EQ(run.summary().status, RunStatus::steps_reached);
+  EXPECT_EQ(run.summary().steps, 7);
+  EXPECT_EQ(run.fraction(), 1);
+  EXPECT_EQ(run.advance(10).steps, 7);
+}
+
+TEST(Run, StopsExactlyAtTheGivenTime) {
+  Recipe recipe = small_recipe();
+  recipe.stage.until = 10.1;
+  auto run = start(recipe);
+  run.advance(100000);
+  EXPECT_EQ(run.summary().status, RunStatus::time_reached);
+  EXPECT_DOUBLE_EQ(run.summary().time, 10.1);
+}
+
+TEST(Run, StopsWhenThePatternRests) {
+  auto run = start(small_recipe());
+  run.advance(100000);
+  EXPECT_EQ(run.summary().status, RunStatus::stationary);
+  EXPECT_LT(run.summary().change, run.program().stationary);
+  const Vector before = run.coefficients()[0];
+  Recipe longer = small_recipe();
+  longer.stage.stationary = 0;
+  longer.stage.until = run.summary().time + 100;
+  auto on = start(longer);
+  on.restore(run.checkpoint());
+  on.advance(100000);
+  const double spread = before.maxCoeff() - before.minCoeff();
+  EXPECT_LT((on.coefficients()[0] - before).cwiseAbs().maxCoeff(), 0.05 * spread);
+}
+
+TEST(Run, AFixedStepThatIsTooLargeFailsWithAMessage) {
+  Recipe recipe = small_recipe();
+  recipe.stage.stepper.value = "explicit";
+  recipe.stage.step = 3;
+  auto run = start(recipe);
+  run.advance(10000);
+  EXPECT_TRUE(run.done());
+  EXPECT_EQ(run.summary().status, RunStatus::failed);
+  EXPECT_NE(run.summary().message.find("step"), std::string::npos) << run.summary().message;
+  EXPECT_NE(run.summary().message.find("halve"), std::string::npos) << run.summary().message;
+  for (const Vector& u : run.coefficients()) EXPECT_TRUE(u.allFinite());
+}
+
+TEST(Run, OtherSeedsMakeOtherPatterns) {
+  Recipe recipe = small_recipe();
+  auto first = start(recipe);
+  recipe.stage.seed = 2;
+  auto second = start(recipe);
+  first.advance(20);
+  second.advance(20);
+  EXPECT_NE(first.coefficients()[0], second.coefficients()[0]);
+}
+
+TEST(Run, MeasuresTheWavelengthOfASingleWave) {
+  auto run = start(small_recipe(), "builtin:sphere?n=2562");
+  const Operators& o = run.operators();
+  Vector z(o.discretisation().unknowns);
+  for (Eigen::Index i = 0; i < z.size(); ++i) z[i] = o.control()[static_cast<std::size_t>(i)][2];
+  double radius = 0;
+  for (const Point& p : limit_positions(o.discretisation(), o.control())) radius = std::hypot(p[0], p[1], p[2]);
+  // Degree 1: k = sqrt(2) / radius.
+  EXPECT_NEAR(measured_wavelength(*o.system().mass, o.stiffness(), z) / (2 * M_PI * radius / std::sqrt(2.0)), 1, 2e-3);
+}
+
+}  // namespace
+}  // namespace pelage
