@@ -34,8 +34,16 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-void stop_if_interrupted() {
-  if (interrupt_signal()) throw Error(Fault::cancelled, "interrupted; nothing more was written");
+/// work(), with a message for people when it is cancelled.
+template <class Work>
+auto interruptible(const std::string& when, Work&& work) {
+  try {
+    if (interrupt_signal()) throw Error(Fault::cancelled, "");
+    return work();
+  } catch (const Error& error) {
+    if (error.fault() != Fault::cancelled) throw;
+    throw Error(Fault::cancelled, "interrupted " + when);
+  }
 }
 
 /// Names are looked up before the shape is read, which may take long: a stand-in of extent 1 will do.
@@ -53,6 +61,14 @@ void choose_method(Stage& stage, bool asked, const TriangleMesh& mesh, GrowRepor
   stage.method.value = "linear";
   report.warning("a vertex has " + std::to_string(valence) + " edges, more than the " +
                  std::to_string(max_loop_valence) + " that Loop elements take; using --method linear");
+}
+
+/// A given step may be beyond what the scheme stands.
+void warn_about_step(const Run& run, GrowReport& report) {
+  const double step = run.summary().step, stable = run.stable_step();
+  if (step > stable)
+    report.warning("the step " + brief(step) + " is beyond " + brief(stable) + ", the largest that is stable for " +
+                   run.program().stepper + "; what grows may be an artefact of the step");
 }
 
 void restore(Run& run, const std::string& path) {
@@ -93,8 +109,7 @@ void grow_to_the_end(Run& run, const GrowOptions& options, const Progress& progr
 void write_outputs(const GrowOptions& options, const TriangleMesh& coat, const Progress& progress, GrowReport& report) {
   for (const std::string& path : options.outputs) {
     progress("writing " + path, 0);
-    stop_if_interrupted();
-    write_mesh(coat, path);
+    interruptible("before " + path + " was written", [&] { write_mesh(coat, path); });
     report.file(path);
   }
   if (options.picture.empty()) return;
@@ -102,8 +117,10 @@ void write_outputs(const GrowOptions& options, const TriangleMesh& coat, const P
   picture.width = picture.height = options.picture_size;
   picture.up = options.up;
   const std::string task = "drawing " + options.picture;
-  write_png(render(coat, picture, [&](std::string_view, double fraction) { return progress(task, fraction); }),
-            options.picture);
+  const auto draw = [&] {
+    return render(coat, picture, [&](std::string_view, double fraction) { return progress(task, fraction); });
+  };
+  write_png(interruptible("before " + options.picture + " was written", draw), options.picture);
   report.file(options.picture);
 }
 
@@ -129,7 +146,9 @@ void grow(const GrowOptions& options) {
   const bool asked_for_method = options.method || recipe.stage.method.where.line > 0;
   choose_method(recipe.stage, asked_for_method, file.mesh, report);
 
-  Run run(resolve(recipe, std::move(file.mesh)), progress);
+  Run run = interruptible("before the growth began; nothing was written",
+                          [&] { return Run(resolve(recipe, std::move(file.mesh)), progress); });
+  warn_about_step(run, report);
   restore(run, options.resume);
   report.pattern(recipe.stage.model.value, run);
   const Stopwatch growth;

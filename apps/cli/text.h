@@ -18,7 +18,7 @@ std::string file_size(std::uintmax_t bytes);
 /// "0.8 s", "42 s", "3 min 5 s", "2 h 10 min".
 std::string duration(double seconds);
 
-/// The text with its line breaks turned into blanks.
+/// The text with its line breaks turned into blanks, and other control characters into question marks.
 std::string one_line(std::string text);
 
 /// The text, broken at blanks into lines of at most `width` characters, each after `indent` blanks.

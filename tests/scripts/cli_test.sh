@@ -20,7 +20,7 @@ expect() {
   "$pelage" "$@" >stdout 2>stderr </dev/null
   local got=$?
   [ $got -eq "$code" ] || fail "pelage $*: exit code $got instead of $code: $(cat stderr)"
-  grep -v '^pelage: [a-z]*ing' stderr >errors
+  grep -vE '^pelage: ([a-z]*ing|warning)' stderr >errors
   [ "$(wc -l <errors)" -eq 1 ] || fail "pelage $*: $(wc -l <errors) lines of errors instead of 1"
   grep -qE "^pelage: error: $pattern" errors || fail "pelage $*: the message \"$(cat errors)\" does not match $pattern"
 }
@@ -114,7 +114,7 @@ succeed grow $sphere "${quick[@]}" --keep-shape -o mine.ply
 expect 2 'the output .*mine.ply is the input' grow mine.ply -o "$work/mine.ply"
 
 # --- failed computation: 4 -----------------------------------------------------------------------------------
-expect 4 'step [0-9]+' grow $sphere --size 0.3 --stepper explicit --step 1000 --until 1e9 -o failed.ply
+expect 4 'step [0-9]+, time' grow $sphere --size 0.3 --stepper explicit --step 1000 --until 1e9 -o failed.ply
 [ ! -e failed.ply ] || fail "a failed run left an output"
 
 # --- JSON ----------------------------------------------------------------------------------------------------
@@ -166,6 +166,12 @@ PYTHON
 succeed grow wheel.off --size 2u --steps 1 --detail 0 -o a.ply
 grep -q 'pelage: warning: a vertex has 300 edges.*linear' stderr || fail "no warning about the valence"
 expect 3 'a vertex has 300 edges' grow wheel.off --size 2u --steps 1 --method loop -o a.ply
+
+# --- steps beyond what is stable ---------------------------------------------------------------------------------
+succeed grow $sphere "${quick[@]}" --stepper paper --step 2 -o a.ply
+grep -q 'pelage: warning: the step 2 is beyond 0.714' stderr || fail "no warning about the step"
+succeed grow $sphere "${quick[@]}" --stepper paper --step 0.7 -o a.ply
+grep -q warning stderr && fail "a warning about a stable step"
 
 # --- same bits: threads, and a run that was stopped and resumed ------------------------------------------------
 grown=(grow builtin:animal?n=1000 --size 0.15 --detail 1)
