@@ -1,4 +1,4 @@
-#include "run/refine_for_size.h"
+#include "shape/refine.h"
 
 #include <gtest/gtest.h>
 
