@@ -46,8 +46,8 @@ class Assembler {
   std::vector<std::uint16_t> offset_;       ///< of an element matrix' entry within its row of the pattern
 };
 
-/// out(i, j) += sum over q of left(q, i) right(q, j): the product of two tables of basis functions (points x functions),
-/// with a fast path for regular Loop elements that gives the same bits as the plain one.
+/// out(i, j) += sum over q of left(q, i) right(q, j): the product of two tables of basis functions (points x
+/// functions), with a fast path for regular Loop elements that gives the same bits as the plain one.
 void add_basis_product(const RowMatrix& left, const double* right, double* out);
 void add_basis_product_plain(const RowMatrix& left, const double* right, double* out);
 
