@@ -174,14 +174,14 @@ void apply(const GrowOptions& o, Stage& stage) {
   override(o.steps, stage.steps);
   override(o.stationary, stage.stationary);
   override(o.seed, stage.seed);
-  override(o.interpolate, stage.interpolate);
+  stage.interpolate |= o.interpolate;
 }
 
 void apply(const GrowOptions& o, Look& look) {
   if (o.species) look.species = {*o.species, {}};
   override(o.ramp, look.ramp);
-  override(o.invert, look.invert);
-  override(o.keep_shape, look.keep_shape);
+  look.invert |= o.invert;
+  look.keep_shape |= o.keep_shape;
   override(o.detail, look.detail);
 }
 

@@ -20,7 +20,7 @@ struct GrowOptions {
   std::optional<std::int64_t> steps;
   std::optional<std::uint64_t> seed;
   std::optional<int> detail, threads;
-  std::optional<bool> interpolate, invert, keep_shape;
+  bool interpolate = false, invert = false, keep_shape = false;
 
   std::vector<std::string> outputs;
   std::string picture, checkpoint, resume;
