@@ -27,8 +27,11 @@ bench: setup  ## measure; results in bench/results
 	@$(CMAKE_BUILD) release
 	@$(CMAKE_BUILD) release --target run_benchmarks
 
-test-clients: demo  ## install Blender, ParaView and others, and open the demo's files in them
-	@bash tests/clients/run.sh out/demo.glb out/demo.ply
+# The tests of write_mesh leave a closed surface and one with boundary and uv seams in every format.
+WRITTEN = build/release/test-files/WriteMesh.EveryFormatTwiceTheSameBytes
+test-clients: demo test  ## install Blender, ParaView and others, and open the demo's and the tests' files in them
+	@bash tests/clients/run.sh out/demo.glb out/demo.ply \
+		$(foreach name,closed seamed,$(foreach extension,glb ply obj vtp,$(WRITTEN)/$(name).$(extension)))
 
 asan: setup  ## every test under the address and undefined-behaviour sanitizers
 	@cmake --preset asan
