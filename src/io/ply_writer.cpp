@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <set>
 
 #include "base/srgb.h"
@@ -63,10 +64,22 @@ std::vector<Column> list_columns(const TriangleMesh& mesh) {
   return columns;
 }
 
-bool exact_as_float(const std::vector<Point>& points) {
-  return std::all_of(points.begin(), points.end(), [](const Point& p) {
-    return std::all_of(p.begin(), p.end(), [](double x) { return static_cast<double>(static_cast<float>(x)) == x; });
-  });
+/// Rounding moves points of a shape near the origin by less than 1e-7 of its size. Programs draw with floats, and
+/// three.js refuses doubles: they are written only where floats would visibly deform the shape, far from the origin.
+constexpr double harmless_rounding = 1e-6;
+
+bool floats_suffice(const std::vector<Point>& points) {
+  double size = 0, rounding = 0;
+  for (std::size_t d = 0; d < 3; ++d) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Point& p : points) {
+      low = std::min(low, p[d]);
+      high = std::max(high, p[d]);
+      rounding = std::max(rounding, std::abs(static_cast<double>(static_cast<float>(p[d])) - p[d]));
+    }
+    size = std::max(size, high - low);
+  }
+  return rounding <= harmless_rounding * size;
 }
 
 std::string header(const TriangleMesh& mesh, const std::vector<Column>& columns, bool floats) {
@@ -106,7 +119,7 @@ void append_vertices(std::string& bytes, const TriangleMesh& mesh, const std::ve
 std::string encode_ply(const TriangleMesh& original) {
   const TriangleMesh mesh = split_corners(original);
   const std::vector<Column> columns = list_columns(mesh);
-  const bool floats = exact_as_float(mesh.points);
+  const bool floats = floats_suffice(mesh.points);
   std::string bytes = header(mesh, columns, floats);
   constexpr std::size_t face_size = 13;
   bytes.reserve(bytes.size() + mesh.points.size() * (24 + 4 * columns.size()) + mesh.triangles.size() * face_size);

@@ -8,7 +8,7 @@
 namespace pelage {
 
 /// The bytes of a PLY file. Per vertex, where the mesh has them:
-///   x y z               float if every coordinate is exactly a float, else double: they read back unchanged
+///   x y z               float; double where that would move a point by more than 1e-6 of the mesh's size
 ///   nx ny nz            float, "normal"
 ///   red green blue      uchar, sRGB, "color" (and alpha, linear, from a fourth component)
 ///   s t                 float, "uv": the names that Blender and three.js read

@@ -30,7 +30,9 @@ TEST(PlyWriter, RoundTripSeams) {
 TEST(PlyWriter, DoublesOnlyWhereFloatsWouldLose) {
   TriangleMesh mesh = test::closed_mesh();
   EXPECT_NE(encode_ply(mesh).find("property float x\n"), std::string::npos);
-  mesh.points[17][1] = 0.1;
+  mesh.points[17][1] += 1e-9;  // no float
+  EXPECT_NE(encode_ply(mesh).find("property float x\n"), std::string::npos);
+  for (Point& p : mesh.points) p[0] += 123456.1;  // map coordinates
   EXPECT_NE(encode_ply(mesh).find("property double x\n"), std::string::npos);
   EXPECT_TRUE(test::same_places(mesh, round_trip(mesh)));
 }
