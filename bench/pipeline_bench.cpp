@@ -91,8 +91,9 @@ void sizes(benchmark::internal::Benchmark* b) {
   b->Unit(benchmark::kMillisecond)->UseRealTime()->MinTime(0.2);
 }
 
-void small_sizes(benchmark::internal::Benchmark* b) {
-  b->ArgNames({"vertices", "threads"})->ArgsProduct({{10242, 40962}, {1, 2}});
+/// One run each: minutes at the largest size.
+void sizes_once(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"vertices", "threads"})->ArgsProduct({{10242, 40962, 163842, 655362}, {1, 2}});
   b->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(1);
 }
 
@@ -102,7 +103,7 @@ BENCHMARK(tabulate)->Apply(sizes);
 BENCHMARK_CAPTURE(assemble, loop, "loop")->Apply(sizes);
 BENCHMARK_CAPTURE(assemble, linear, "linear")->Apply(sizes);
 BENCHMARK(step)->Apply(sizes);
-BENCHMARK(whole_run)->Apply(small_sizes);
+BENCHMARK(whole_run)->Apply(sizes_once);
 
 }  // namespace
 }  // namespace pelage

@@ -9,6 +9,7 @@
 #include "catalog/models.h"
 #include "look/ramp.h"
 #include "react/stability.h"
+#include "run/place_fields.h"
 #include "time/stepper.h"
 
 namespace pelage {
@@ -36,6 +37,13 @@ void require_species(const Look& look, const Model& model) {
   require_known(*look.species, "species", names);
 }
 
+/// A trial on no samples finds attributes that the shape does not have.
+void require_attributes(const Model& model, const TriangleMesh& shape) {
+  Places places;
+  for (const auto& [name, values] : scalar_attributes(shape)) places.attributes[name] = {};
+  Kinetics(model, places, 0);
+}
+
 double world_size(const Stage& stage, double diagonal) {
   const Length length = stage.size ? stage.size->value : Length{default_size, true};
   return length.relative ? length.value * diagonal : length.value;
@@ -53,6 +61,7 @@ Program resolve(const Recipe& recipe, TriangleMesh shape) {
   Program p;
   p.model = resolve_model(stage);
   require_species(recipe.look, p.model);
+  require_attributes(p.model, shape);
   p.method = stage.method.value;
   p.stepper = stage.stepper.value;
   const double diagonal = bounding_diagonal(shape);

@@ -51,18 +51,4 @@ class Assembler {
 void add_basis_product(const RowMatrix& left, const double* right, double* out);
 void add_basis_product_plain(const RowMatrix& left, const double* right, double* out);
 
-/// Positions on the surface and area weights (their sum is the area) of all quadrature points.
-struct QuadratureGeometry {
-  std::vector<Point> position, normal;
-  std::vector<double> weight;
-};
-QuadratureGeometry quadrature_geometry(const Discretisation& discretisation, const std::vector<Point>& control);
-
-/// Surface gradients of a function at the quadrature points, as vectors in space.
-std::vector<Point> quadrature_gradients(const Discretisation& discretisation, const std::vector<Point>& control,
-                                        const Vector& coefficients);
-
-/// Quadrature points x unknowns: the values of the basis functions there.
-SparseMatrix quadrature_values(const Discretisation& discretisation);
-
 }  // namespace pelage

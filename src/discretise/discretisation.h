@@ -16,6 +16,7 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 /// Basis functions of all triangles with the same neighbourhood, at the quadrature points of the reference triangle.
 struct ElementClass {
   RowMatrix value, dv, dw;  ///< points x basis functions: phi, d phi / dv, d phi / dw
+  RowMatrix dvv, dvw, dww;  ///< second derivatives; empty where the surface has no curvature inside its elements
   Vector weight;            ///< quadrature weights; their sum is 1/2, the area of the reference triangle
   std::vector<std::array<double, 2>> place;  ///< (v, w) of the points
 

@@ -44,16 +44,14 @@ ElementClass tabulate(const LoopPatches& patches, Index patch_class, const LoopQ
   for (int i = 0; i < splits; ++i) rule = split(rule);
   const auto points = static_cast<Eigen::Index>(rule.size());
   ElementClass element;
-  element.value.resize(points, patches.size(patch_class));
-  element.dv.resizeLike(element.value);
-  element.dw.resizeLike(element.value);
+  const std::array<RowMatrix*, 6> tables = {&element.value, &element.dv,  &element.dw,
+                                            &element.dvv,   &element.dvw, &element.dww};
+  for (RowMatrix* table : tables) table->resize(points, patches.size(patch_class));
   element.weight.resize(points);
   for (Eigen::Index q = 0; q < points; ++q) {
     const QuadraturePoint& p = rule[static_cast<std::size_t>(q)];
     const PatchJet jet = patches.evaluate(patch_class, p.v, p.w);
-    element.value.row(q) = jet.row(0);
-    element.dv.row(q) = jet.row(1);
-    element.dw.row(q) = jet.row(2);
+    for (std::size_t k = 0; k < tables.size(); ++k) tables[k]->row(q) = jet.row(static_cast<Eigen::Index>(k));
     element.weight[q] = p.weight;
     element.place.push_back({p.v, p.w});
   }

@@ -5,6 +5,8 @@
 
 #include "base/parallel.h"
 #include "linalg/conjugate_gradient.h"
+#include "shape/normals.h"
+#include "shape/vectors.h"
 
 namespace pelage {
 
@@ -26,32 +28,6 @@ std::vector<Point> apply_to_points(const SparseMatrix& a, const std::vector<Poin
         for (std::size_t d = 0; d < 3; ++d) result[r][d] += a.value[at(k)] * points[at(a.pattern->column[at(k)])][d];
   });
   return result;
-}
-
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-void normalise(Point& p) {
-  const double length = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-  for (double& x : p) x = length > 0 ? x / length : 0;
-}
-
-/// Area-weighted normals of flat triangles.
-std::vector<Point> vertex_normals(const Topology& topology, const std::vector<Point>& points) {
-  std::vector<Point> normal(points.size(), Point{});
-  for (const Triangle& t : topology.triangles) {
-    Point a, b;
-    for (std::size_t d = 0; d < 3; ++d) {
-      a[d] = points[at(t[1])][d] - points[at(t[0])][d];
-      b[d] = points[at(t[2])][d] - points[at(t[0])][d];
-    }
-    const Point n = cross(a, b);
-    for (Index v : t)
-      for (std::size_t d = 0; d < 3; ++d) normal[at(v)][d] += n[d];
-  }
-  for (Point& n : normal) normalise(n);
-  return normal;
 }
 
 /// A third of the area of the triangles around each vertex, measured by the quadrature.
@@ -91,13 +67,10 @@ std::vector<Point> limit_positions(const Discretisation& d, const std::vector<Po
 }
 
 std::vector<Point> limit_normals(const Discretisation& d, const std::vector<Point>& control) {
-  if (d.tangent1.value.empty()) return vertex_normals(d.topology, control);
+  if (d.tangent1.value.empty()) return vertex_normals(d.topology.triangles, control);
   std::vector<Point> normal = apply_to_points(d.tangent1, control);
   const std::vector<Point> other = apply_to_points(d.tangent2, control);
-  for (std::size_t i = 0; i < normal.size(); ++i) {
-    normal[i] = cross(normal[i], other[i]);
-    normalise(normal[i]);
-  }
+  for (std::size_t i = 0; i < normal.size(); ++i) normal[i] = unit(cross(normal[i], other[i]));
   return normal;
 }
 
@@ -107,7 +80,6 @@ Sampling vertex_sampling(const Discretisation& d, const std::vector<Point>& cont
   s.transposed = transpose(d.values);
   s.weight = vertex_weights(d, control, s.transposed, mass);
   s.position = limit_positions(d, control);
-  s.normal = limit_normals(d, control);
   return s;
 }
 
@@ -118,7 +90,6 @@ Sampling quadrature_sampling(const Discretisation& d, const std::vector<Point>& 
   s.transposed = transpose(s.values);
   s.weight = Eigen::Map<const Vector>(g.weight.data(), static_cast<Eigen::Index>(g.weight.size()));
   s.position = std::move(g.position);
-  s.normal = std::move(g.normal);
   return s;
 }
 

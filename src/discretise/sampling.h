@@ -5,7 +5,7 @@
 //   samples = values * coefficients,   M = values' W values,   load(f) = values' W f
 
 #include "discretise/assembly.h"
-#include "discretise/discretisation.h"
+#include "discretise/quadrature.h"
 
 namespace pelage {
 
@@ -13,7 +13,7 @@ struct Sampling {
   SparseMatrix values;      ///< samples x unknowns
   SparseMatrix transposed;  ///< values'
   Vector weight;            ///< area of each sample, positive
-  std::vector<Point> position, normal;
+  std::vector<Point> position;
 
   Eigen::Index count() const { return weight.size(); }
 };

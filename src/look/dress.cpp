@@ -6,7 +6,9 @@
 #include "base/parallel.h"
 #include "base/suggest.h"
 #include "look/ramp.h"
+#include "shape/normals.h"
 #include "shape/refine.h"
+#include "shape/vectors.h"
 
 namespace pelage {
 
@@ -104,37 +106,18 @@ int checked_detail(const Tessellation& t, int detail) {
   return detail;
 }
 
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-std::vector<double> unit_vectors(const std::vector<Point>& vectors) {
+std::vector<double> flattened(const std::vector<Point>& vectors) {
   std::vector<double> values;
   values.reserve(3 * vectors.size());
-  for (const Point& v : vectors) {
-    const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    for (double x : v) values.push_back(length > 0 ? x / length : 0);
-  }
+  for (const Point& v : vectors) values.insert(values.end(), v.begin(), v.end());
   return values;
 }
 
-/// Area-weighted normals of flat triangles.
-std::vector<Point> triangle_normals(const std::vector<Triangle>& triangles, const std::vector<Point>& points) {
-  std::vector<Point> normals(points.size(), Point{});
-  for (const Triangle& t : triangles) {
-    const Point &a = points[static_cast<std::size_t>(t[0])], &b = points[static_cast<std::size_t>(t[1])],
-                &c = points[static_cast<std::size_t>(t[2])];
-    const Point n = cross({b[0] - a[0], b[1] - a[1], b[2] - a[2]}, {c[0] - a[0], c[1] - a[1], c[2] - a[2]});
-    for (Index v : t)
-      for (std::size_t d = 0; d < 3; ++d) normals[static_cast<std::size_t>(v)][d] += n[d];
-  }
+std::vector<Point> limit_normals(const LimitMasks& masks, const std::vector<Point>& control) {
+  std::vector<Point> normals = combine(masks.tangent1, control);
+  const std::vector<Point> other = combine(masks.tangent2, control);
+  for (std::size_t i = 0; i < normals.size(); ++i) normals[i] = unit(cross(normals[i], other[i]));
   return normals;
-}
-
-std::vector<Point> cross_products(const std::vector<Point>& a, const std::vector<Point>& b) {
-  std::vector<Point> result(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) result[i] = cross(a[i], b[i]);
-  return result;
 }
 
 /// Colours of a field, its lowest and highest half percent at the ends of the ramp.
@@ -182,15 +165,15 @@ TriangleMesh dress(CoatFields fields, const Look& look) {
     for (auto& f : t.fields) f = combine(masks.position, f);
     if (!look.keep_shape) {
       mesh.points = combine(masks.position, t.control);
-      normals = cross_products(combine(masks.tangent1, t.control), combine(masks.tangent2, t.control));
+      normals = limit_normals(masks, t.control);
     }
   }
   if (mesh.points.empty()) {
     mesh.points = std::move(t.flat);
-    normals = triangle_normals(t.topology.triangles, mesh.points);
+    normals = vertex_normals(t.topology.triangles, mesh.points);
   }
   mesh.triangles = std::move(t.topology.triangles);
-  mesh.set({"normal", 3, Domain::vertex, unit_vectors(normals)});
+  mesh.set({"normal", 3, Domain::vertex, flattened(normals)});
   mesh.set({"color", 3, Domain::vertex, colours(t.fields[shown], look)});
   for (std::size_t i = 0; i < t.fields.size(); ++i)
     mesh.set({fields.species[i], 1, Domain::vertex, std::move(t.fields[i])});

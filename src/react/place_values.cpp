@@ -84,4 +84,15 @@ std::vector<double> place_values(const Symbol& symbol, const Places& places, std
   }
 }
 
+std::vector<Symbol> place_symbols(const Model& model) {
+  const Equations& e = model.equations();
+  std::vector<NodeId> roots = e.rate;
+  for (const auto* expressions : {&e.prefactor, &e.diffusion, &e.initial})
+    roots.insert(roots.end(), expressions->begin(), expressions->end());
+  std::vector<Symbol> symbols;
+  for (const NodeId id : reachable(e.graph, roots))
+    if (e.graph[id].op == Op::symbol && e.graph[id].dependence == on_place) symbols.push_back(e.graph.symbol_of(id));
+  return symbols;
+}
+
 }  // namespace pelage

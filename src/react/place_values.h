@@ -13,4 +13,7 @@ namespace pelage {
 /// located where the formula uses the symbol if the places do not have it.
 std::vector<double> place_values(const Symbol& symbol, const Places& places, std::uint64_t seed);
 
+/// The quantities of the place that a model reads.
+std::vector<Symbol> place_symbols(const Model& model);
+
 }  // namespace pelage

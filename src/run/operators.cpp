@@ -21,14 +21,6 @@ void report(const Progress& progress, std::string_view what, double fraction) {
   if (progress && !progress(what, fraction)) throw Error(Fault::cancelled, "cancelled");
 }
 
-Places places_of(const std::vector<Point>& position, const std::vector<Point>& normal, double length_unit) {
-  Places places;
-  places.positions = position;
-  places.normals = normal;
-  places.length_unit = length_unit;
-  return places;
-}
-
 std::vector<const double*> pointers(const std::vector<Vector>& fields) {
   std::vector<const double*> result;
   for (const Vector& f : fields) result.push_back(f.data());
@@ -62,16 +54,19 @@ Operators::Operators(const Program& program, const Progress& progress)
     sampling_ = vertex_sampling(*discretisation_, control_, mass_);
     mass_ = sampled_mass(sampling_, mass_.pattern);
   }
-  kinetics_ =
-      std::make_unique<Kinetics>(model_, places_of(sampling_.position, sampling_.normal, length_unit_), program.seed);
-  build_species(program);
+  const VertexAttributes attributes = refined(program.shape, attributes_read(model_, program.shape), levels_);
+  const PlaceFields fields = program.stepper == "paper"
+                                 ? quadrature_fields(model_, *discretisation_, control_, attributes)
+                                 : vertex_fields(model_, *discretisation_, control_, attributes);
+  kinetics_ = std::make_unique<Kinetics>(model_, fields.places(length_unit_), program.seed);
+  build_species(program, attributes);
 }
 
 bool Operators::diffusion_varies_in_time(std::size_t i) const {
   return (model_.diffusion_dependence(i) & ~static_cast<unsigned>(on_place)) != 0;
 }
 
-void Operators::build_species(const Program& program) {
+void Operators::build_species(const Program& program, const VertexAttributes& attributes) {
   const double scale = length_unit_ * length_unit_;  // model length^2 to world length^2
   system_.mass = &mass_;
   system_.sampling = &sampling_;
@@ -87,9 +82,8 @@ void Operators::build_species(const Program& program) {
       s.diffusion *= *constant;
     } else {
       if (!quadrature_kinetics_) {
-        const QuadratureGeometry g = quadrature_geometry(*discretisation_, control_);
-        quadrature_kinetics_ =
-            std::make_unique<Kinetics>(model_, places_of(g.position, g.normal, length_unit_), program.seed);
+        const PlaceFields fields = quadrature_fields(model_, *discretisation_, control_, attributes);
+        quadrature_kinetics_ = std::make_unique<Kinetics>(model_, fields.places(length_unit_), program.seed);
         quadrature_values_ = quadrature_values(*discretisation_);
       }
       variable_[i] =

@@ -6,6 +6,7 @@
 #include "base/progress.h"
 #include "discretise/sampling.h"
 #include "react/kinetics.h"
+#include "run/place_fields.h"
 #include "run/program.h"
 #include "shape/refine.h"
 #include "time/system.h"
@@ -35,7 +36,7 @@ class Operators {
   void update(const State& state);
 
  private:
-  void build_species(const Program& program);
+  void build_species(const Program& program, const VertexAttributes& attributes);
   std::vector<double> diffusion_at_quadrature(std::size_t species, const State* state) const;
   bool diffusion_varies_in_time(std::size_t species) const;
 

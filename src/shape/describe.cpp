@@ -9,17 +9,11 @@
 
 #include "shape/edges.h"
 #include "shape/repair.h"
+#include "shape/vectors.h"
 
 namespace pelage {
 
 namespace {
-
-Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double length(const Point& a) { return std::sqrt(dot(a, a)); }
 
 /// Gathers a Range.
 class Gather {

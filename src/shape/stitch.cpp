@@ -8,6 +8,7 @@
 #include <string>
 
 #include "shape/places.h"
+#include "shape/vectors.h"
 
 namespace pelage {
 
@@ -21,16 +22,6 @@ std::vector<std::int32_t> open_places(const TriangleMesh& mesh, const EdgeTable&
 // --- pairing ------------------------------------------------------------------------------------------------
 
 namespace {
-
-Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Point unit(const Point& a) {
-  const double length = std::sqrt(dot(a, a));
-  return {a[0] / length, a[1] / length, a[2] / length};
-}
 
 [[noreturn]] void refuse(const NumberedMesh& work, std::span<const HalfEdge> faces) {
   const std::vector<Triangle>& triangles = work.mesh.triangles;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "react/kinetics.h"
+#include "react/place_values.h"
 
 namespace pelage {
 
@@ -19,12 +20,16 @@ struct Linearisation {
   double growth = 0;       ///< of the fastest mode, at least 0
 };
 
-/// C2 of every species at a uniform state.
+/// C2 of every species at a uniform state, curvatures and attributes being 0.
 VectorXd split_at(const Model& model, const std::vector<double>& state) {
   const std::vector<Point> place = {Point{}};
   Places places;
   places.positions = place;
   places.normals = place;
+  const std::vector<double> zero = {0};
+  places.k1 = places.k2 = zero;
+  for (const Symbol& s : place_symbols(model))
+    if (s.kind == Symbol::Kind::attribute) places.attributes[s.name] = zero;
   const Kinetics kinetics(model, places, 0);
   const std::size_t n = state.size();
   std::vector<double> c2(n), c3(n);

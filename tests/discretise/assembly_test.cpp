@@ -10,6 +10,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "discretise/quadrature.h"
 #include "shape/generators.h"
 #include "support/random_matrices.h"
 

@@ -1,0 +1,44 @@
+#pragma once
+// What formulas may read from the places of a surface: positions, normals, curvatures, attributes of the mesh.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "discretise/curvature.h"
+#include "pelage/triangle_mesh.h"
+#include "react/kinetics.h"
+
+namespace pelage {
+
+/// Values at the control vertices, by the name that attribute(NAME) uses.
+using VertexAttributes = std::map<std::string, std::vector<double>>;
+
+/// The vertex attributes of a mesh, each component by itself: "mask", or "color_1", "color_2", "color_3".
+VertexAttributes scalar_attributes(const TriangleMesh& mesh);
+
+/// Those that the model reads and the mesh has.
+VertexAttributes attributes_read(const Model& model, const TriangleMesh& mesh);
+
+/// The attributes after `levels` refinements of the mesh, linear over its triangles.
+VertexAttributes refined(const TriangleMesh& mesh, VertexAttributes attributes, int levels);
+
+/// Fields at samples. Curvatures and attributes that the model does not read stay empty.
+struct PlaceFields {
+  std::vector<Point> position, normal;
+  PrincipalCurvatures curvature;
+  VertexAttributes attributes;
+
+  /// Views on the fields for a Kinetics; valid as long as they are.
+  Places places(double length_unit) const;
+};
+
+/// At the limit positions of the vertices. `attributes` are values at the vertices of the discretisation.
+PlaceFields vertex_fields(const Model& model, const Discretisation& discretisation, const std::vector<Point>& control,
+                          VertexAttributes attributes);
+
+/// At the quadrature points; attributes are linear in the parameters of each triangle.
+PlaceFields quadrature_fields(const Model& model, const Discretisation& discretisation,
+                              const std::vector<Point>& control, const VertexAttributes& attributes);
+
+}  // namespace pelage

@@ -1,0 +1,13 @@
+#pragma once
+// Normals of flat triangles.
+
+#include <vector>
+
+#include "pelage/triangle_mesh.h"
+
+namespace pelage {
+
+/// At every vertex the area-weighted mean of the normals of its triangles, of unit length; 0 where there are none.
+std::vector<Point> vertex_normals(const std::vector<Triangle>& triangles, const std::vector<Point>& points);
+
+}  // namespace pelage
