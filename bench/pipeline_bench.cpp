@@ -12,6 +12,7 @@
 #include "io/read_shape.h"
 #include "io/write_mesh.h"
 #include "look/dress.h"
+#include "look/picture.h"
 #include "run/run.h"
 #include "shape/generators.h"
 
@@ -63,6 +64,13 @@ void tabulate(benchmark::State& state) {
     benchmark::DoNotOptimize(make_discretisation("loop", make_topology(mesh.points.size(), mesh.triangles)));
 }
 
+/// A picture of 1024 x 1024 pixels of a mesh of about 2 * vertices triangles.
+void picture(benchmark::State& state) {
+  const ThreadLimit limit(threads(state));
+  const TriangleMesh& mesh = sphere(state.range(0));
+  for (auto _ : state) benchmark::DoNotOptimize(render(mesh, {}));
+}
+
 /// One step of the default stepper in the middle of the growth of a pattern.
 void step(benchmark::State& state) {
   const ThreadLimit limit(threads(state));
@@ -103,6 +111,13 @@ BENCHMARK(tabulate)->Apply(sizes);
 BENCHMARK_CAPTURE(assemble, loop, "loop")->Apply(sizes);
 BENCHMARK_CAPTURE(assemble, linear, "linear")->Apply(sizes);
 BENCHMARK(step)->Apply(sizes);
+BENCHMARK(picture)
+    ->ArgNames({"vertices", "threads"})
+    ->Args({100000, 1})
+    ->Args({100000, 2})
+    ->Iterations(1)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(whole_run)->Apply(sizes_once);
 
 }  // namespace

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Every `pelage ...` line of the README does what it says: runs, and writes the files that it names. Usage: SOURCE BINARY
+set -uo pipefail
+source=$1
+pelage=$2/bin/pelage
+[ -x "$pelage" ] || { echo "no $pelage: the program is not part of this build"; exit 77; }
+work=$2/readme_test
+rm -rf "$work" && mkdir -p "$work" && cd "$work" || exit 1
+failures=0
+
+# The README's cow: any mesh of that name.
+"$pelage" grow builtin:animal?n=600 --steps 0 --detail 0 -o cow.obj >log 2>&1 || { cat log; exit 1; }
+
+run_line() {
+  local -a words
+  read -ra words <<<"$1"
+  "$pelage" "${words[@]:1}" >log 2>&1 </dev/null || { echo "FAILED: $1"; tail -3 log; failures=$((failures + 1)); return; }
+  local file
+  for file in $(tr ', ' '\n' <<<"$1" | grep -E '^[a-z]+\.(glb|ply|obj|png|html)$'); do
+    [ -s "$file" ] || { echo "FAILED: $1: no $file"; failures=$((failures + 1)); }
+  done
+}
+
+lines=$(sed -n 's/^    \(pelage [^#]*\).*/\1/p' "$source/README.md" | sed 's/ *$//')
+[ "$(wc -l <<<"$lines")" -ge 4 ] || { echo "FAILED: the README's examples were not found"; exit 1; }
+while read -r line; do
+  case "$line" in
+    'pelage verify' | 'pelage gallery'*) ;;  # minutes; tests of their own
+    *) run_line "$line" ;;
+  esac
+done <<<"$lines"
+echo "$failures failures"
+[ "$failures" -eq 0 ]
