@@ -20,8 +20,6 @@ std::string format(const char* pattern, Values... values) {
 
 std::string brief(double value) { return format("%.3g", value); }
 
-std::string number(double value) { return format("%.6g", value); }
-
 std::string file_size(std::uintmax_t bytes) {
   if (bytes < 1000) return std::to_string(bytes) + " bytes";
   const char* units[] = {"kB", "MB", "GB", "TB"};

@@ -4,10 +4,9 @@
 #include <cstdint>
 #include <string>
 
-namespace pelage {
+#include "base/number.h"
 
-/// Six significant digits at most: "0.0312", "1.5e-07".
-std::string number(double value);
+namespace pelage {
 
 /// Three significant digits.
 std::string brief(double value);

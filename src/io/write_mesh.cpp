@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 
+#include "base/number.h"
 #include "base/suggest.h"
 #include "io/atomic_file.h"
 #include "io/glb_writer.h"
@@ -62,7 +63,7 @@ void require_finite(std::span<const double> values, int components, Domain domai
   const std::string place = domain == Domain::vertex
                                 ? "vertex " + std::to_string(tuple)
                                 : "corner " + std::to_string(tuple % 3) + " of face " + std::to_string(tuple / 3);
-  throw Error(Fault::numerics, name + " is " + std::to_string(*bad) + " at " + place + "; nothing was written");
+  throw Error(Fault::numerics, name + " is " + number(*bad) + " at " + place + "; nothing was written");
 }
 
 }  // namespace

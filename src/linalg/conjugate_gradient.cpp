@@ -4,6 +4,7 @@
 #include <Eigen/SparseCore>
 #include <cmath>
 
+#include "base/number.h"
 #include "base/parallel.h"
 #include "pelage/error.h"
 
@@ -80,7 +81,7 @@ Vector solve_spd(const SparseMatrix& a, const Vector& b, const ConjugateGradient
   const Vector inverse_diagonal = diagonal(a).cwiseInverse();
   const SolveReport report = ConjugateGradient().solve(a, inverse_diagonal, b, x, options);
   if (!report.converged)
-    throw Error(Fault::numerics, "a linear system did not converge (residual " + std::to_string(report.residual) +
+    throw Error(Fault::numerics, "a linear system did not converge (residual " + number(report.residual) +
                                      " after " + std::to_string(report.iterations) + " iterations)");
   return x;
 }
@@ -95,7 +96,7 @@ Vector solve_general(const SparseMatrix& a, const Vector& b, double tolerance) {
   solver.compute(matrix);
   const Vector x = solver.solveWithGuess(b, b);
   if (!(solver.error() <= 1e3 * tolerance))
-    throw Error(Fault::numerics, "a limit-surface system did not converge (residual " + std::to_string(solver.error()) +
+    throw Error(Fault::numerics, "a limit-surface system did not converge (residual " + number(solver.error()) +
                                      "); the mesh may have extreme valences");
   return x;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/number.h"
 #include "pelage/error.h"
 #include "time/step_limit.h"
 
@@ -119,7 +120,7 @@ void Run::check_stop() {
 
 void Run::fail(const StepReport& report) {
   summary_.status = RunStatus::failed;
-  summary_.message = "step " + std::to_string(state_.step + 1) + ", time " + std::to_string(state_.time) + ": " +
+  summary_.message = "step " + std::to_string(state_.step + 1) + ", time " + number(state_.time) + ": " +
                      report.failure + "; " +
                      (program_.step ? "halve the step or leave it to the stepper"
                                     : "check the parameters of the model, or give a smaller --step");

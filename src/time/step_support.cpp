@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number.h"
 #include "base/parallel.h"
 
 namespace pelage {
@@ -93,7 +94,7 @@ void note_solve(const SolveReport& solve, const std::string& species, StepReport
   if (!solve.positive_definite)
     report.failure = "the matrix of " + species + " is not positive definite: the step is too large";
   else if (!solve.converged)
-    report.failure = "the solve for " + species + " did not converge (residual " + std::to_string(solve.residual) + ")";
+    report.failure = "the solve for " + species + " did not converge (residual " + number(solve.residual) + ")";
 }
 
 }  // namespace pelage

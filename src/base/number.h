@@ -1,0 +1,11 @@
+#pragma once
+// Numbers in messages.
+
+#include <string>
+
+namespace pelage {
+
+/// Six significant digits at most: "0.0312", "1.5e-07".
+std::string number(double value);
+
+}  // namespace pelage
