@@ -37,8 +37,9 @@ void require_species(const Look& look, const Model& model) {
   require_known(*look.species, "species", names);
 }
 
-/// A trial on no samples finds attributes that the shape does not have.
+/// A trial on no samples finds attributes that the shape does not have. (A stand-in without triangles has none.)
 void require_attributes(const Model& model, const TriangleMesh& shape) {
+  if (shape.triangles.empty()) return;
   Places places;
   for (const auto& [name, values] : scalar_attributes(shape)) places.attributes[name] = {};
   Kinetics(model, places, 0);

@@ -66,6 +66,21 @@ std::vector<TriangleMesh> surfaces() {
           builtin_shape("builtin:cube?n=150")};
 }
 
+TEST(Assembly, QuadratureIsExactForQuartics) {
+  const TriangleMesh mesh = builtin_shape("builtin:sphere?n=642");  // elements with and without splits
+  const Discretisation d = loop_discretisation(make_topology(mesh.points.size(), mesh.triangles));
+  for (const ElementClass& c : d.classes)
+    for (int i = 0; i <= 4; ++i)
+      for (int j = 0; i + j <= 4; ++j) {
+        double sum = 0;
+        for (Index q = 0; q < c.points(); ++q) {
+          const auto [v, w] = c.place[static_cast<std::size_t>(q)];
+          sum += c.weight[q] * std::pow(v, i) * std::pow(w, j);
+        }
+        EXPECT_NEAR(sum, std::tgamma(i + 1) * std::tgamma(j + 1) / std::tgamma(i + j + 3), 1e-14) << i << " " << j;
+      }
+}
+
 TEST(Assembly, AgreesWithThePlainDenseLoop) {
   for (const char* method : {"loop", "linear"})
     for (const TriangleMesh& mesh : surfaces()) {

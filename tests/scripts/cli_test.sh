@@ -240,5 +240,29 @@ interrupt --checkpoint interrupted/state
 grep -q '^130 .*--resume interrupted/state' interrupt.log || fail "Ctrl-C with a checkpoint: $(cat interrupt.log)"
 [ "$(ls interrupted)" = state ] || fail "Ctrl-C with a checkpoint left: $(ls interrupted)"
 
+# --- fair, compare ---------------------------------------------------------------------------------------------
+succeed fair builtin:cube?n=600 -o faired.ply,faired.obj --json
+is_json stdout
+json 'd["method"] == "guided" and d["files"] == ["faired.ply", "faired.obj"]'
+succeed fair faired.ply --method paper --steps 1 --quiet -o again.ply
+[ ! -s stdout ] || fail "--quiet is not quiet: $(cat stdout)"
+succeed compare again.ply faired.ply --json
+json 'd["normals"]["flipped"] == 0 and d["distance"] < 0.1'
+succeed compare faired.ply builtin:sphere?n=642
+grep -q 'not compared' stdout || fail "compare: different triangles are not mentioned: $(cat stdout)"
+expect 2 'unknown method "gided"; did you mean "guided"' fair builtin:cube?n=600 --method gided -o x.ply
+expect 2 'noise -1 is out of range' fair builtin:cube?n=600 --noise -1 -o x.ply
+expect 3 'missing.ply: .*' compare missing.ply faired.ply
+expect 5 'nowhere/x.ply: .*' fair builtin:cube?n=600 -o nowhere/x.ply
+
+# --- attributes of the mesh in formulas ------------------------------------------------------------------------
+printf '%s\n' 'ply' 'format ascii 1.0' 'element vertex 4' 'property float x' 'property float y' 'property float z' \
+  'property float mask' 'element face 4' 'property list uchar int vertex_indices' 'end_header' '0 0 0 0' '1 0 0 1' \
+  '0 1 0 0' '0 0 1 1' '3 0 2 1' '3 0 1 3' '3 0 3 2' '3 1 2 3' >painted.ply
+sed 's/^rate = "s\*(16 - a\*b)"/rate = "s*(16 - a*b)*(1 + 0.1*attribute(mask))"/' "$source/models/turing.toml" >painted.toml
+succeed grow painted.ply --model painted.toml --size 0.5 --steps 2 -o painted.glb
+expect 2 'painted.toml:[0-9]*:[0-9]*: the mesh has no vertex attribute "mask"; it has none' \
+  grow builtin:cube?n=200 --model painted.toml --size 0.5 --steps 2 -o painted.glb
+
 [ $failures -eq 0 ] && echo "all right"
 exit $((failures > 0))

@@ -1,0 +1,121 @@
+// pelage fair: takes the noise off a mesh.
+
+#include "fair/fair.h"
+
+#include <cstdio>
+#include <memory>
+
+#include "command.h"
+#include "interrupt.h"
+#include "io/read_shape.h"
+#include "io/write_mesh.h"
+#include "progress_bar.h"
+#include "text.h"
+
+namespace pelage {
+
+namespace {
+
+struct FairCommand {
+  std::string shape;
+  std::vector<std::string> outputs;
+  FairOptions options;
+  bool json = false, quiet = false;
+};
+
+std::string edges(double length) { return brief(length) + " mean edges"; }
+
+std::string settings(const FairReport& r) {
+  std::string text;
+  if (r.tau > 0) text += ", tau " + brief(r.tau) + " edge^2";
+  if (r.angle > 0) text += ", sigma " + brief(r.sigma) + " edge, angle " + brief(r.angle) + " degrees";
+  if (r.range > 0) text += ", range of normals " + brief(r.range);
+  return text;
+}
+
+void print_report(const FairCommand& command, const FairReport& r) {
+  const bool given = command.options.noise.has_value();
+  std::printf("noise     %s (%s)\n", edges(r.noise).c_str(), given ? "as given" : "estimated");
+  std::printf("faired    %d steps of %s%s\n", r.steps, command.options.method.c_str(), settings(r).c_str());
+  std::printf("moved     %s along the normals\n", edges(r.moved).c_str());
+  if (r.volume_before != 0)
+    std::printf("volume    %s before, %s after\n", number(r.volume_before).c_str(), number(r.volume_after).c_str());
+  if (r.folded > 0) std::printf("warning   %zu vertices belong to triangles that are folded over\n", r.folded);
+}
+
+Json to_json(const FairCommand& command, const FairReport& r) {
+  const auto used = [](double value) { return value > 0 ? json_number(value) : Json(nullptr); };
+  return {{"shape", command.shape},
+          {"method", command.options.method},
+          {"noise_edges", json_number(r.noise)},
+          {"mean_edge", json_number(r.mean_edge)},
+          {"steps", r.steps},
+          {"moved_edges", json_number(r.moved)},
+          {"tau", used(r.tau)},
+          {"sigma", used(r.sigma)},
+          {"angle_degrees", used(r.angle)},
+          {"range", used(r.range)},
+          {"volume_before", json_number(r.volume_before)},
+          {"volume_after", json_number(r.volume_after)},
+          {"folded_vertices", r.folded},
+          {"files", command.outputs}};
+}
+
+void run_fair(const FairCommand& command) {
+  for (const std::string& path : command.outputs) check_mesh_path(path);
+  catch_interrupts();
+  ProgressBar bar(command.quiet || command.json ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
+  const TriangleMesh mesh = read_shape(command.shape).mesh;
+  const Faired result = fair(mesh, command.options, bar.progress());
+  bar.clear();
+  for (const std::string& path : command.outputs) write_mesh(result.mesh, path);
+  if (command.json) return print_json(to_json(command, result.report));
+  if (command.quiet) return;
+  print_report(command, result.report);
+  for (const std::string& path : command.outputs) std::printf("wrote     %s\n", path.c_str());
+}
+
+void add_method_options(CLI::App* app, FairOptions& options) {
+  app->add_option("--method", options.method,
+                  "guided (default), or for comparison: paper (anisotropic diffusion on the limit surface, Bajaj, Xu, "
+                  "Zhang 2008), isotropic, taubin")
+      ->type_name("NAME");
+  app->add_option("--noise", options.noise, "Standard deviation of the noise in mean edges (default: estimated)")
+      ->type_name("X");
+  app->add_option("--steps", options.steps, "Take so many steps (default: until the noise is off)")->type_name("N");
+  app->add_option("--tau", options.tau, "isotropic, paper: time of one step in squared mean edges (0.1, 0.2)")
+      ->type_name("X");
+  app->add_option("--sigma", options.sigma, "paper: width of the smoothing before curvatures are taken, edges (1)")
+      ->type_name("X");
+  app->add_option("--angle", options.angle, "paper: bend per edge that counts as an edge of the shape, degrees (11.5)")
+      ->type_name("X");
+  app->add_option("--mu", options.mu, "paper: 0 adapts diffusion to the size of triangles, 1 the time step (0)")
+      ->type_name("X");
+}
+
+}  // namespace
+
+Command add_fair(CLI::App& parent) {
+  auto command = std::make_shared<FairCommand>();
+  CLI::App* app = parent.add_subcommand(
+      "fair",
+      "Take the noise off a mesh and keep its edges\n"
+      "Estimates the noise, filters the normals of the triangles and lets the vertices follow, until as much has moved "
+      "as the noise amounts to. Triangles, attributes and volume stay; boundaries do not move. Says what was chosen; "
+      "options override.");
+  app->add_option("SHAPE", command->shape, "An OBJ, PLY, STL, OFF, glTF or GLB file, or builtin:NAME?n=VERTICES")
+      ->required()
+      ->type_name("");
+  app->add_option("-o,--output", command->outputs, "Files to write: .ply, .obj, .glb, .vtp, .stl, .off")
+      ->required()
+      ->delimiter(',')
+      ->type_name("FILES");
+  add_method_options(app, command->options);
+  app->add_flag("--json", command->json, "Print what was done as JSON");
+  app->add_flag("-q,--quiet", command->quiet, "Print nothing but errors");
+  app->footer(
+      "Examples:\n  pelage fair scan.ply -o clean.ply\n  pelage fair part.stl --noise 0.1 -o clean.stl,clean.glb");
+  return {app, [command] { run_fair(*command); }};
+}
+
+}  // namespace pelage

@@ -1,0 +1,125 @@
+#include "fair/faces.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "base/parallel.h"
+
+namespace pelage {
+
+namespace {
+
+/// Concatenates lists that are made in parallel, one per index.
+template <class MakeList>
+FaceLists collect(std::size_t count, MakeList&& make_list) {
+  std::vector<std::vector<Index>> list(count);
+  parallel_for(
+      count,
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) make_list(i, list[i]);
+      },
+      256);
+  FaceLists result;
+  for (const auto& l : list) {
+    result.face.insert(result.face.end(), l.begin(), l.end());
+    result.start.push_back(static_cast<std::int64_t>(result.face.size()));
+  }
+  return result;
+}
+
+}  // namespace
+
+FaceGeometry face_geometry(const std::vector<Triangle>& triangles, const std::vector<Point>& points) {
+  FaceGeometry g;
+  g.normal.resize(triangles.size());
+  g.centroid.resize(triangles.size());
+  g.area.resize(triangles.size());
+  parallel_for(triangles.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const auto& [i, j, k] = triangles[f];
+      const Vector3 a = vector3(points[i]), b = vector3(points[j]), c = vector3(points[k]);
+      const Vector3 n = (b - a).cross(c - a);
+      const double length = n.norm();
+      g.normal[f] = length > 0 ? Vector3(n / length) : Vector3::Zero();
+      g.centroid[f] = (a + b + c) / 3;
+      g.area[f] = length / 2;
+    }
+  });
+  return g;
+}
+
+std::vector<Vector3> vertex_means(const Topology& topology, const std::vector<Vector3>& per_face,
+                                  const std::vector<double>& area) {
+  std::vector<Vector3> mean(topology.vertex_count, Vector3::Zero());
+  for (std::size_t f = 0; f < per_face.size(); ++f)
+    for (Index v : topology.triangles[f]) mean[v] += area[f] * per_face[f];
+  for (Vector3& m : mean) m = m.norm() > 0 ? m.normalized().eval() : Vector3::Zero();
+  return mean;
+}
+
+FaceLists faces_of_vertices(const Topology& topology) {
+  FaceLists lists;
+  std::vector<std::int64_t> count(topology.vertex_count, 0);
+  for (const Triangle& t : topology.triangles)
+    for (Index v : t) ++count[v];
+  for (std::int64_t c : count) lists.start.push_back(lists.start.back() + c);
+  lists.face.resize(lists.start.back());
+  std::vector<std::int64_t> next(lists.start.begin(), lists.start.end() - 1);
+  for (std::size_t f = 0; f < topology.triangles.size(); ++f)
+    for (Index v : topology.triangles[f]) lists.face[next[v]++] = static_cast<Index>(f);
+  return lists;
+}
+
+FaceLists neighbours(const Topology& topology, const FaceLists& faces_of_vertex) {
+  return collect(topology.triangles.size(), [&](std::size_t f, std::vector<Index>& list) {
+    for (Index v : topology.triangles[f]) {
+      const auto around = faces_of_vertex[v];
+      list.insert(list.end(), around.begin(), around.end());
+    }
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  });
+}
+
+FaceLists discs(const FaceLists& neighbour, const std::vector<Vector3>& centroid, const std::vector<double>& radius) {
+  return collect(neighbour.size(), [&](std::size_t f, std::vector<Index>& list) {
+    list.push_back(static_cast<Index>(f));
+    for (std::size_t k = 0; k < list.size(); ++k)
+      for (Index g : neighbour[list[k]])
+        if ((centroid[g] - centroid[f]).norm() <= radius[f] && std::find(list.begin(), list.end(), g) == list.end())
+          list.push_back(g);
+  });
+}
+
+std::vector<double> centroid_spacing(const Topology& topology, const FaceLists& neighbour,
+                                     const std::vector<Vector3>& centroid, int rounds) {
+  std::vector<double> spacing(centroid.size(), 0.0), next(centroid.size());
+  for (std::size_t f = 0; f < centroid.size(); ++f) {
+    int sides = 0;
+    for (Index h = static_cast<Index>(3 * f); h < static_cast<Index>(3 * f + 3); ++h) {
+      if (topology.twin[h] < 0) continue;
+      spacing[f] += (centroid[topology.twin[h] / 3] - centroid[f]).norm();
+      ++sides;
+    }
+    if (sides > 0) spacing[f] /= sides;
+  }
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t f = 0; f < spacing.size(); ++f) {
+      double sum = 0;
+      for (Index g : neighbour[f]) sum += spacing[g];
+      next[f] = sum / static_cast<double>(neighbour[f].size());
+    }
+    std::swap(spacing, next);
+  }
+  return spacing;
+}
+
+double mean_edge(const Topology& topology, const std::vector<Point>& points) {
+  double sum = 0;
+  for (Index h = 0; h < static_cast<Index>(topology.twin.size()); ++h)
+    if (topology.twin[h] < h)  // each edge once
+      sum += (vector3(points[topology.origin(h)]) - vector3(points[topology.target(h)])).norm();
+  return topology.edge_count > 0 ? sum / topology.edge_count : 0;
+}
+
+}  // namespace pelage

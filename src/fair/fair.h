@@ -1,0 +1,49 @@
+#pragma once
+// Fairing: noise is taken off a mesh while its shape and its edges stay.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "pelage/triangle_mesh.h"
+
+namespace pelage {
+
+/// What is not given is chosen from the noise of the mesh; see FairReport for what was chosen.
+struct FairOptions {
+  std::string method = "guided";     ///< see fair_methods()
+  std::optional<double> noise = {};  ///< standard deviation along the normals, in mean edges; default: estimated
+  std::optional<int> steps = {};     ///< exactly so many; default: until as much has moved as the noise amounts to
+  std::optional<double> tau = {};    ///< isotropic, paper: time of a step, in squared mean edges
+  std::optional<double> sigma = {};  ///< paper: width of the Gaussian before curvatures are taken, in mean edges
+  std::optional<double> angle = {};  ///< paper: bend per edge beyond which diffusion across is throttled, degrees
+  double mu = 0;                     ///< paper: 0 adapts the tensor to the local size of triangles, 1 the time step
+};
+
+struct FairReport {
+  double noise = 0;      ///< that was assumed, in mean edges
+  double mean_edge = 0;  ///< of the input, world units
+  int steps = 0;
+  double moved = 0;                            ///< root mean square along the normals, in mean edges
+  double volume_before = 0, volume_after = 0;  ///< of the closed parts, world units^3
+  double tau = 0, sigma = 0, angle = 0;        ///< that were used, 0 where the method has none
+  double range = 0;                            ///< guided: of normals in the last step, |n - n'|
+  std::size_t folded = 0;                      ///< triangles that still lean away from their smoothed normal
+};
+
+struct Faired {
+  TriangleMesh mesh;  ///< the same triangles and attributes; an attribute "normal" is made anew
+  FairReport report;
+};
+
+/// Methods: "guided" (edges and details stay; the default), "paper" (anisotropic diffusion, eqs (18)-(21) of Bajaj,
+/// Zhang, Xu 2008, on the Loop limit surface), "isotropic" (implicit, Desbrun et al. 1999), "taubin" (lambda-mu, Taubin
+/// 1995).
+const std::vector<std::string>& fair_methods();
+
+/// Vertices on boundaries stay where they are; closed parts keep their volume. Error(Fault::usage) for an unknown
+/// method or options out of range; Error(Fault::input) for meshes that are not manifold; Error(Fault::cancelled).
+Faired fair(const TriangleMesh& mesh, const FairOptions& options = {}, const Progress& progress = {});
+
+}  // namespace pelage

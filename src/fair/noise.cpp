@@ -1,0 +1,83 @@
+#include "fair/noise.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "fair/faces.h"
+
+namespace pelage {
+
+namespace {
+
+constexpr int unknowns = 6;  ///< of a quadratic height function
+
+/// The vertices within two edges of v, itself included.
+std::vector<Index> two_rings(const Topology& topology, Index v) {
+  std::vector<Index> near, ring, all = {v};
+  topology.one_ring(v, near);
+  for (Index w : near) {
+    topology.one_ring(w, ring);
+    all.insert(all.end(), ring.begin(), ring.end());
+    all.push_back(w);
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+/// Root mean square of what the best quadratic leaves, per degree of freedom; negative if there are too few vertices.
+double residual(const Topology& topology, const std::vector<Point>& points, const Vector3& normal, Index v) {
+  const std::vector<Index> near = two_rings(topology, v);
+  const auto count = static_cast<Eigen::Index>(near.size());
+  if (count < unknowns + 4 || !(normal.norm() > 0)) return -1;
+  const Vector3 centre = vector3(points[v]), x = normal.unitOrthogonal(), y = normal.cross(x);
+  double scale = 0;
+  for (Index w : near) scale = std::max(scale, (vector3(points[w]) - centre).norm());
+  if (!(scale > 0)) return -1;
+  Eigen::Matrix<double, Eigen::Dynamic, unknowns> a(count, unknowns);
+  Eigen::VectorXd height(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Vector3 d = (vector3(points[near[i]]) - centre) / scale;
+    const double u = d.dot(x), w = d.dot(y);
+    a.row(i) << 1, u, w, u * u, u * w, w * w;
+    height[i] = d.dot(normal);
+  }
+  const Eigen::VectorXd fit = a.colPivHouseholderQr().solve(height);
+  return scale * std::sqrt((height - a * fit).squaredNorm() / static_cast<double>(count - unknowns));
+}
+
+/// Below the quantile lie 40 % of the fits: few enough to leave out edges, enough for noise that sits on some vertices
+/// only.
+constexpr double share = 0.4;
+/// The same quantile of sqrt(chi^2 / n), n = 13 degrees of freedom: 19 vertices around one of valence 6.
+constexpr double gaussian_quantile = 0.9257;
+
+}  // namespace
+
+double estimate_noise(const Topology& topology, const std::vector<Point>& points) {
+  const FaceGeometry g = face_geometry(topology.triangles, points);
+  const std::vector<Vector3> normal = vertex_means(topology, g.normal, g.area);
+  std::vector<double> all(points.size());
+  parallel_for(
+      points.size(),
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+          Vector3 wide = Vector3::Zero();  // one normal is too noisy to measure heights along
+          std::vector<Index> ring;
+          topology.one_ring(static_cast<Index>(v), ring);
+          for (Index w : ring) wide += normal[w];
+          all[v] = residual(topology, points, (wide + normal[v]).normalized(), static_cast<Index>(v));
+        }
+      },
+      256);
+  std::erase_if(all, [](double r) { return r < 0; });
+  if (all.empty()) return 0;
+  const auto quantile = all.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(all.size() - 1));
+  std::nth_element(all.begin(), quantile, all.end());
+  return *quantile / gaussian_quantile;
+}
+
+}  // namespace pelage

@@ -1,0 +1,109 @@
+#include "shape/closest_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "shape/vectors.h"
+
+namespace pelage {
+
+namespace {
+
+constexpr std::size_t leaf_size = 8;  ///< triangles; below this a search is as fast as another level
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double square(const Point& a) { return dot(a, a); }
+
+double square_distance_to_segment(const Point& p, const Point& a, const Point& b) {
+  const Point ab = difference(b, a), ap = difference(p, a);
+  const double length2 = square(ab);
+  const double t = length2 > 0 ? std::clamp(dot(ap, ab) / length2, 0.0, 1.0) : 0;
+  return square({ap[0] - t * ab[0], ap[1] - t * ab[1], ap[2] - t * ab[2]});
+}
+
+Point middle(const std::array<Point, 3>& t) {
+  return {t[0][0] + t[1][0] + t[2][0], t[0][1] + t[1][1] + t[2][1], t[0][2] + t[1][2] + t[2][2]};
+}
+
+}  // namespace
+
+double square_distance(const Point& p, const Point& a, const Point& b, const Point& c) {
+  const Point n = cross(difference(b, a), difference(c, a));
+  const double n2 = square(n);
+  const auto inside = [&](const Point& from, const Point& to) {
+    return dot(cross(difference(to, from), difference(p, from)), n) >= 0;
+  };
+  if (n2 > 0 && inside(a, b) && inside(b, c) && inside(c, a)) {
+    const double height = dot(difference(p, a), n);
+    return height * height / n2;
+  }
+  return std::min(
+      {square_distance_to_segment(p, a, b), square_distance_to_segment(p, b, c), square_distance_to_segment(p, c, a)});
+}
+
+double DistanceTree::Box::square_distance(const Point& from) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double outside = std::max({low[k] - from[k], from[k] - high[k], 0.0});
+    sum += outside * outside;
+  }
+  return sum;
+}
+
+DistanceTree::DistanceTree(const TriangleMesh& mesh) {
+  for (const Triangle& t : mesh.triangles)
+    triangles_.push_back({mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]});
+  if (!triangles_.empty()) build(0, triangles_.size());
+}
+
+/// Halves the triangles at the median of their middles, along the longest side of the box.
+void DistanceTree::build(std::size_t begin, std::size_t end) {
+  const std::size_t number = nodes_.size();
+  nodes_.emplace_back();
+  Box box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  for (std::size_t i = begin; i < end; ++i)
+    for (const Point& p : triangles_[i])
+      for (std::size_t k = 0; k < 3; ++k) {
+        box.low[k] = std::min(box.low[k], p[k]);
+        box.high[k] = std::max(box.high[k], p[k]);
+      }
+  nodes_[number].box = box;
+  if (end - begin <= leaf_size) {
+    nodes_[number].first = static_cast<std::int32_t>(begin);
+    nodes_[number].count = static_cast<std::int32_t>(end - begin);
+    return;
+  }
+  std::size_t axis = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (box.high[k] - box.low[k] > box.high[axis] - box.low[axis]) axis = k;
+  const std::size_t half = (begin + end) / 2;
+  const auto at = [&](std::size_t i) { return triangles_.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(at(begin), at(half), at(end),
+                   [axis](const auto& a, const auto& b) { return middle(a)[axis] < middle(b)[axis]; });
+  build(begin, half);
+  nodes_[number].right = static_cast<std::int32_t>(nodes_.size());
+  build(half, end);
+}
+
+double DistanceTree::distance(const Point& from) const {
+  double best = infinity;
+  std::vector<std::int32_t> open;
+  if (!nodes_.empty()) open.push_back(0);
+  while (!open.empty()) {
+    const std::int32_t number = open.back();
+    open.pop_back();
+    const Node& node = nodes_[number];
+    if (node.box.square_distance(from) >= best) continue;
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i)
+      best = std::min(best, square_distance(from, triangles_[i][0], triangles_[i][1], triangles_[i][2]));
+    if (node.count > 0) continue;
+    const std::int32_t left = number + 1;
+    const bool left_first = nodes_[left].box.square_distance(from) <= nodes_[node.right].box.square_distance(from);
+    open.push_back(left_first ? node.right : left);
+    open.push_back(left_first ? left : node.right);
+  }
+  return std::sqrt(best);
+}
+
+}  // namespace pelage
