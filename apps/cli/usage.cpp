@@ -29,7 +29,7 @@ std::vector<std::string> option_names(const CLI::App& app) {
 
 /// CLI11 names the option in front of the first colon.
 std::string message(const CLI::ParseError& error) {
-  const std::string text = error.what();
+  std::string text = error.what();
   const std::string option = text.substr(0, text.find(':'));
   if (error.get_name() != "ArgumentMismatch") return text;
   return option + (text.find("missing") != std::string::npos ? " needs a value" : " is given more than once");

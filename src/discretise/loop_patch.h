@@ -20,7 +20,7 @@ namespace pelage {
 struct CornerType {
   Index valence = 6;    ///< number of edges at the corner
   Index position = -1;  ///< -1 inside; on the boundary the rank of the triangle in the corner's fan, counter-clockwise
-  auto operator<=>(const CornerType&) const = default;
+  auto operator<=>(const CornerType&) const = default;  // NOLINT: taken for a null pointer
 };
 using PatchSignature = std::array<CornerType, 3>;
 

@@ -139,7 +139,7 @@ class GltfReader {
       const Matrix world = parent * local_matrix(node);
       if (node.mesh >= 0) add_mesh(node.mesh, world);
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-        stack.push_back({*child, world});
+        stack.emplace_back(*child, world);
     }
   }
 

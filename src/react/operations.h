@@ -92,7 +92,7 @@ double apply([[maybe_unused]] double a, [[maybe_unused]] double b, [[maybe_unuse
   if constexpr (op == Op::less_equal) return a <= b ? 1.0 : 0.0;
   if constexpr (op == Op::equal) return a == b ? 1.0 : 0.0;
   if constexpr (op == Op::logical_and) return ((a != 0) & (b != 0)) ? 1.0 : 0.0;
-  if constexpr (op == Op::logical_or) return (a != 0) | (b != 0) ? 1.0 : 0.0;
+  if constexpr (op == Op::logical_or) return ((a != 0) | (b != 0)) ? 1.0 : 0.0;
   if constexpr (op == Op::logical_not) return a == 0 ? 1.0 : 0.0;
   if constexpr (op == Op::select) return a != 0 ? b : c;
   return std::numeric_limits<double>::quiet_NaN();  // constants and symbols have no operands
