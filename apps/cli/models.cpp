@@ -62,7 +62,9 @@ std::string plus(const Formula& f) { return f.text.starts_with('-') ? " - " + f.
 
 /// "du/dt = div(Du grad u) + R" with the formulas of the file.
 std::string equation(const SpeciesSource& s) {
+  if (s.equals) return s.name + " = " + s.equals->text;
   std::string text = "d" + s.name + "/dt = ";
+  if (!s.diffusion && !s.c0 && !s.c1) return text + s.rate->text;
   if (s.diffusion)
     text += "div(" + in_brackets(*s.diffusion) + " grad " + s.name + ")";
   else
@@ -82,6 +84,7 @@ void print_equations(const ModelSource& source) {
     std::string bounds;
     if (s.lower) bounds += ", at least " + s.lower->text;
     if (s.upper) bounds += ", at most " + s.upper->text;
+    if (s.equals) continue;
     starts.push_back({s.name + " = " + (s.initial ? s.initial->text : "0") + " at the start" + bounds});
   }
   for (const DefinitionSource& d : source.definitions)
@@ -154,11 +157,17 @@ Json formula(const std::optional<Formula>& f) { return f ? Json(f->text) : Json(
 Json value(const std::optional<double>& x) { return x ? json_number(*x) : Json(nullptr); }
 
 Json to_json(const SpeciesSource& s) {
-  return {{"name", s.name},          {"diffusion", formula(s.diffusion)},
-          {"rate", formula(s.rate)}, {"C0", formula(s.c0)},
-          {"C1", formula(s.c1)},     {"C2", formula(s.c2)},
-          {"C3", formula(s.c3)},     {"initial", formula(s.initial)},
-          {"min", formula(s.lower)}, {"max", formula(s.upper)}};
+  return {{"name", s.name},
+          {"diffusion", formula(s.diffusion)},
+          {"rate", formula(s.rate)},
+          {"equals", formula(s.equals)},
+          {"C0", formula(s.c0)},
+          {"C1", formula(s.c1)},
+          {"C2", formula(s.c2)},
+          {"C3", formula(s.c3)},
+          {"initial", formula(s.initial)},
+          {"min", formula(s.lower)},
+          {"max", formula(s.upper)}};
 }
 
 Json to_json(const ParameterSource& p) {

@@ -29,6 +29,7 @@ SpeciesSource species(const std::string& name, const Value& table) {
           .where = table.where(),
           .diffusion = optional_formula(table, "diffusion"),
           .rate = optional_formula(table, "rate"),
+          .equals = optional_formula(table, "equals"),
           .c0 = optional_formula(table, "C0"),
           .c1 = optional_formula(table, "C1"),
           .c2 = optional_formula(table, "C2"),

@@ -63,6 +63,11 @@ Program resolve(const Recipe& recipe, TriangleMesh shape) {
   p.model = resolve_model(stage);
   require_species(recipe.look, p.model);
   require_attributes(p.model, shape);
+  if (stage.stepper.value == "paper" && !p.model.coupled().empty())
+    throw Error(Fault::usage,
+                "the stepper \"paper\" cannot grow \"" + p.model.name() +
+                    "\", whose species are coupled by lap(); take \"sbdf2\"",
+                stage.stepper.where);
   p.method = stage.method.value;
   p.stepper = stage.stepper.value;
   const double diagonal = bounding_diagonal(shape);

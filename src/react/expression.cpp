@@ -18,7 +18,7 @@ double dispatch(Op op, double a, double b, double c, std::index_sequence<I...>) 
 }
 
 unsigned dependence_of(const Symbol& symbol) {
-  if (symbol.kind == Symbol::Kind::species) return on_species;
+  if (symbol.kind == Symbol::Kind::species || symbol.kind == Symbol::Kind::laplacian) return on_species;
   return symbol.kind == Symbol::Kind::time ? on_time : on_place;
 }
 

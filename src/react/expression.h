@@ -23,6 +23,7 @@ using NodeId = std::int32_t;
 struct Symbol {
   enum class Kind {
     species,        ///< concentration number `index`
+    laplacian,      ///< surface Laplacian of concentration number `index`
     time,           ///< model time
     position,       ///< coordinate `index` (0, 1, 2) of the place, world units
     normal_vector,  ///< component `index` of the unit normal

@@ -97,6 +97,7 @@ class Parser {
   NodeId call(const Token& name, const Function& function);
   std::vector<NodeId> arguments(const Token& name, std::string_view usage, std::size_t least, std::size_t most);
   NodeId attribute(const Token& name);
+  NodeId laplacian(const Token& name);
   NodeId white_noise(const Token& name);
   NodeId noise(const Token& name);
   double constant_argument(const Token& name, NodeId argument, const std::string& what) const;
@@ -218,6 +219,7 @@ NodeId Parser::variable(const Token& name) {
 
 NodeId Parser::call(const Token& name) {
   if (name.text == "attribute") return attribute(name);
+  if (name.text == "lap") return laplacian(name);
   if (name.text == "uniform" || name.text == "normal") return white_noise(name);
   if (name.text == "noise") return noise(name);
   for (const Function& function : pure_functions())
@@ -255,6 +257,21 @@ NodeId Parser::attribute(const Token& name) {
   symbol.name = take().text;
   symbol.where = name.where;
   if (!accept(")")) expected("')' after the name of the attribute");
+  return graph_.symbol(symbol);
+}
+
+NodeId Parser::laplacian(const Token& name) {
+  take();  // '('
+  const auto species = scope_.names.find(peek().text);
+  const bool is_species = peek().kind == Token::Kind::name && species != scope_.names.end() &&
+                          graph_[species->second].op == Op::symbol &&
+                          graph_.symbol_of(species->second).kind == Symbol::Kind::species;
+  if (!is_species) expected("the name of a species in lap()");
+  Symbol symbol{Symbol::Kind::laplacian, graph_.symbol_of(species->second).index};
+  symbol.where = name.where;
+  take();
+  if (!accept(")"))
+    expected("')' after the name of the species; for lap(formula) make a species that equals the formula");
   return graph_.symbol(symbol);
 }
 
@@ -323,7 +340,8 @@ const std::vector<std::string>& reserved_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> list = {"pi", "e", "t", "x", "y", "z", "nx", "ny", "nz", "k1", "k2", "H"};
     for (const Function& function : pure_functions()) list.emplace_back(function.name);
-    for (const char* name : {"attribute", "uniform", "normal", "noise", "and", "or", "not"}) list.emplace_back(name);
+    for (const char* name : {"attribute", "lap", "uniform", "normal", "noise", "and", "or", "not"})
+      list.emplace_back(name);
     return list;
   }();
   return names;

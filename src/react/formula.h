@@ -7,6 +7,7 @@
 //   step(edge, x) = (x >= edge), smoothstep(edge0, edge1, x), clamp(x, lower, upper)
 //   pi, e; t (time); x, y, z (place, world units); nx, ny, nz (unit normal);
 //   k1, k2, H (principal curvatures and their mean, 1 / world unit); attribute(name) (of the mesh, per vertex)
+//   lap(u): surface Laplacian of a species u; in rate and equals only, times numbers and parameters (react/laplacian.h)
 //   uniform(a, b), normal(mean, deviation): white noise, an independent draw at every place
 //   noise(length [, seed]): band-limited noise, mean 0, variance 1, length in the model's own length unit
 //

@@ -1,6 +1,7 @@
 #include "react/model.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <set>
@@ -8,6 +9,7 @@
 #include "base/suggest.h"
 #include "react/derivative.h"
 #include "react/formula.h"
+#include "react/laplacian.h"
 #include "react/linear_split.h"
 
 namespace pelage {
@@ -53,6 +55,14 @@ void apply_overrides(ModelSource& model, const Overrides& overrides) {
   }
 }
 
+bool is_coupled(const Equations& equations, std::size_t i) {
+  const std::size_t n = equations.species.size();
+  bool coupled = equations.algebraic[i];
+  for (std::size_t j = 0; j < n; ++j)
+    coupled = coupled || equations.cross[i * n + j] != 0 || equations.cross[j * n + i] != 0;
+  return coupled;
+}
+
 /// One compilation: source -> equations.
 class Compiler {
  public:
@@ -64,6 +74,7 @@ class Compiler {
     add_parameters();
     add_definitions();
     for (const SpeciesSource& species : source_.species) add_equation(species);
+    for (std::size_t i = 0; i < source_.species.size(); ++i) check_coupling(i);
     add_jacobian();
     return std::move(equations_);
   }
@@ -114,10 +125,15 @@ class Compiler {
   NodeId parse(const SpeciesSource& species, const std::string& key, const std::optional<Formula>& formula,
                double otherwise) {
     if (!formula) return graph_.constant(otherwise);
-    return parse_formula(graph_, *formula, scope_, "species." + species.name + "." + key);
+    const NodeId id = parse_formula(graph_, *formula, scope_, "species." + species.name + "." + key);
+    if (key != "rate" && key != "equals" && has_laplacian(graph_, id))
+      fail("lap() can stand in `rate` and in `equals` only", formula->where);
+    return id;
   }
 
   void add_equation(const SpeciesSource& species) {
+    if (species.equals) require_nothing_else(species);
+    equations_.algebraic.push_back(species.equals.has_value());
     add_diffusion(species);
     add_rate(species);
     equations_.initial.push_back(parse(species, "initial", species.initial, 0));
@@ -130,15 +146,21 @@ class Compiler {
       fail("the lower bound of species \"" + species.name + "\" is above its upper bound", species.lower->where);
   }
 
+  static void require_nothing_else(const SpeciesSource& species) {
+    for (const auto* other : {&species.diffusion, &species.rate, &species.c0, &species.c1, &species.c2, &species.c3,
+                              &species.initial, &species.lower, &species.upper})
+      if (*other)
+        fail("species \"" + species.name + "\" is determined by `equals`; give nothing else beside it",
+             (*other)->where);
+  }
+
   void add_diffusion(const SpeciesSource& species) {
     const bool coefficients = species.c0 || species.c1;
     if (species.diffusion && coefficients)
       fail("species \"" + species.name + "\": give diffusion, or C0 and C1, not both", species.where);
-    if (!species.diffusion && !coefficients)
-      fail("species \"" + species.name + "\" has no diffusion; give 0 if it does not diffuse", species.where);
     Term c0{&graph_, parse(species, "C0", species.c0, 1)};
-    Term c1{&graph_, species.diffusion ? parse(species, "diffusion", species.diffusion, 0)
-                                       : parse(species, "C1", species.c1, 1)};
+    Term c1{&graph_,
+            coefficients ? parse(species, "C1", species.c1, 1) : parse(species, "diffusion", species.diffusion, 0)};
     if (graph_.constant_value(c0.id)) {
       c1 = c0 * c1;
       c0.id = graph_.constant(1);
@@ -157,21 +179,75 @@ class Compiler {
     const bool coefficients = species.c2 || species.c3;
     if (species.rate && coefficients)
       fail("species \"" + species.name + "\": give rate, or C2 and C3, not both", species.where);
-    if (!species.rate && !coefficients)
+    if (!species.rate && !species.equals && !coefficients)
       fail("species \"" + species.name + "\" has no rate; give rate, or C2 and C3", species.where);
     const Term u{&graph_, scope_.names.find(species.name)->second};
     NodeId rate;
     LinearSplit split;
-    if (species.rate) {
-      rate = parse(species, "rate", species.rate, 0);
+    bool laplacians = false;
+    if (species.rate || species.equals) {
+      rate = species.rate ? parse(species, "rate", species.rate, 0) : parse(species, "equals", species.equals, 0);
+      laplacians = has_laplacian(graph_, rate);
+      if (laplacians) rate = without_laplacians(rate, species);
       split = linear_split(graph_, rate, u.id);
     } else {
       split = {parse(species, "C2", species.c2, 0), parse(species, "C3", species.c3, 0)};
       rate = (Term{&graph_, split.c2} * u + Term{&graph_, split.c3}).id;
     }
+    if (!species.diffusion && !species.c0 && !species.c1 && !species.equals && !laplacians)
+      fail("species \"" + species.name + "\" has no diffusion; give 0 if it does not diffuse", species.where);
     equations_.rate.push_back(rate);
     equations_.c2.push_back(split.c2);
     equations_.c3.push_back(split.c3);
+  }
+
+  /// Moves the Laplacians into `cross`, and the species' own into `diffusion`.
+  NodeId without_laplacians(NodeId rate, const SpeciesSource& species) {
+    const std::size_t n = equations_.species.size(), i = equations_.rate.size();
+    std::vector<std::string> names;
+    for (const SpeciesSource& s : source_.species) names.push_back(s.name);
+    const Formula& formula = species.rate ? *species.rate : *species.equals;
+    const LaplacianSplit split = split_laplacians(graph_, rate, equations_.species, names, formula.where);
+    equations_.cross.resize(n * n, 0.0);
+    for (std::size_t j = 0; j < n; ++j)
+      if (j != i) equations_.cross[i * n + j] = split.coefficient[j];
+    const Term c0{&graph_, equations_.prefactor[i]}, c1{&graph_, equations_.diffusion[i]};
+    equations_.diffusion[i] = (c1 + split.coefficient[i] / c0).id;
+    return split.rest;
+  }
+
+  /// What Laplacians and algebraic species ask of an equation; known when all are.
+  void check_coupling(std::size_t i) {
+    const SpeciesSource& species = source_.species[i];
+    equations_.cross.resize(equations_.species.size() * equations_.species.size(), 0.0);
+    const auto diffusion = graph_.constant_value(equations_.diffusion[i]);
+    const bool coupled = is_coupled(equations_, i);
+    if (coupled && !(diffusion && graph_.constant_value(equations_.prefactor[i])))
+      fail("the diffusion of species \"" + species.name +
+               "\" varies; one that is linked to others by lap() must be made of numbers and parameters",
+           (species.diffusion ? species.diffusion
+            : species.c1      ? species.c1
+                              : species.c0)
+               ->where);
+    if (!coupled && diffusion && *diffusion < 0)
+      fail("diffusion and lap(" + species.name + ") in the rate of \"" + species.name + "\" add up to " +
+               number_text(*diffusion) + "; it must be 0 or more",
+           species.rate->where);
+    if (species.equals) check_algebraic(i);
+  }
+
+  void check_algebraic(std::size_t i) {
+    const SpeciesSource& species = source_.species[i];
+    for (const NodeId id : reachable(graph_, std::array{equations_.rate[i]})) {
+      if (graph_[id].op != Op::symbol || graph_.symbol_of(id).kind != Symbol::Kind::species) continue;
+      const auto j = static_cast<std::size_t>(graph_.symbol_of(id).index);
+      if (equations_.algebraic[j])
+        fail("`equals` of \"" + species.name + "\" uses \"" + source_.species[j].name +
+                 "\" outside of lap(), which has no rate of its own; write its formula out",
+             species.equals->where);
+    }
+    if (std::ranges::count(equations_.algebraic, 0) == 0)
+      fail("model \"" + source_.name + "\" has no species with a rate", source_.where);
   }
 
   double bound(const SpeciesSource& species, const std::string& key, const std::optional<Formula>& formula,
@@ -223,6 +299,13 @@ std::optional<double> Model::diffusion_constant(std::size_t i) const {
   const Graph& graph = equations_->graph;
   if (!graph.constant_value(equations_->prefactor[i])) return std::nullopt;
   return graph.constant_value(equations_->diffusion[i]);
+}
+
+std::vector<std::size_t> Model::coupled() const {
+  std::vector<std::size_t> list;
+  for (std::size_t i = 0; i < species_count(); ++i)
+    if (is_coupled(*equations_, i)) list.push_back(i);
+  return list;
 }
 
 unsigned Model::diffusion_dependence(std::size_t i) const {

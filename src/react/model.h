@@ -3,7 +3,10 @@
 //
 // Each species u obeys the generalised PDE (eq. 2 of Bajaj, Xu, Zhang 2008)
 //     du/dt = C0 div(C1 grad u) + R,   R = C2 u + C3,
-// given either by a diffusion (C0 = 1, C1 = diffusion) and a rate R, or by C0, C1, C2, C3 one by one.
+// given either by a diffusion (C0 = 1, C1 = diffusion) and a rate R, or by C0, C1, C2, C3 one by one. A rate may
+// contain Laplacians of this and other species with constant coefficients; and a species w may be algebraic, w = f +
+// sum_j E_j lap(u_j) at every time, which makes equations of fourth order out of two of second order:
+//     du_i/dt = C0 div(C1 grad u_i) + sum_j D_ij lap(u_j) + R_i
 
 #include <limits>
 #include <map>
@@ -21,7 +24,9 @@ struct SpeciesSource {
   std::string name;
   Location where;
   std::optional<Formula> diffusion;  ///< model length unit^2 / model time unit; "0" if it does not diffuse
-  std::optional<Formula> rate;       ///< R: concentration / model time unit
+  std::optional<Formula> rate;       ///< R: concentration / model time unit; may contain D lap(v)
+  std::optional<Formula> equals;     ///< makes it algebraic, instead of all else: a formula in the evolving species and
+                                     ///< in the Laplacians of all
   std::optional<Formula> c0, c1, c2,
       c3;                               ///< instead of `diffusion` (C0, C1) or of `rate` (C2, C3); C0, C1 default to 1
   std::optional<Formula> initial;       ///< at time 0; defaults to 0
@@ -92,10 +97,12 @@ ModelSource with_variant(ModelSource source, const std::string& variant);
 struct Equations {
   Graph graph;
   std::vector<NodeId> species;       ///< the symbols
-  std::vector<NodeId> rate;          ///< R
+  std::vector<char> algebraic;       ///< u = R + Laplacians instead of du/dt = R + Laplacians
+  std::vector<NodeId> rate;          ///< R, without Laplacians; of algebraic species depends on evolving ones only
   std::vector<NodeId> c2, c3;        ///< R = C2 u + C3
   std::vector<NodeId> prefactor;     ///< C0, 1 when it is constant (then it is part of `diffusion`)
-  std::vector<NodeId> diffusion;     ///< C1
+  std::vector<NodeId> diffusion;     ///< C1, with the coefficient of the species' own Laplacian in its rate
+  std::vector<double> cross;         ///< coefficient of lap(u_j) in equation i at [i * species + j], 0 for j = i
   std::vector<NodeId> initial;       ///< depends on the place only
   std::vector<NodeId> jacobian;      ///< dR_i / du_j at [i * species + j]
   std::vector<double> lower, upper;  ///< bounds of the concentrations, infinite where there is none
@@ -111,7 +118,14 @@ class Model {
   const std::string& species_name(std::size_t i) const { return source_->species[i].name; }
   const std::vector<ParameterSource>& parameters() const { return source_->parameters; }
 
-  /// C0 * C1 of species i where both are numbers; otherwise see Kinetics::diffusion.
+  /// Not advanced in time but determined by the others at every time.
+  bool algebraic(std::size_t i) const { return equations_->algebraic[i] != 0; }
+  /// Species that are linked by Laplacians and have to be solved for together; their diffusions are numbers.
+  std::vector<std::size_t> coupled() const;
+  /// Coefficient of lap(u_j) in the equation of species i, j != i.
+  double cross_diffusion(std::size_t i, std::size_t j) const { return equations_->cross[i * species_count() + j]; }
+
+  /// C0 * C1 of species i where both are numbers; otherwise see Kinetics::diffusion. Not negative unless coupled.
   std::optional<double> diffusion_constant(std::size_t i) const;
   /// What C0 and C1 of species i vary with: bits of Dependence.
   unsigned diffusion_dependence(std::size_t i) const;

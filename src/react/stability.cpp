@@ -15,18 +15,44 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+/// The Schur complement of a matrix on the indices that are kept.
+MatrixXd eliminated(const MatrixXd& a, const std::vector<Eigen::Index>& keep, const std::vector<Eigen::Index>& drop) {
+  if (drop.empty()) return a;
+  const MatrixXd inner = a(drop, drop), right = a(drop, keep);
+  return a(keep, keep) - a(keep, drop) * inner.partialPivLu().solve(right);
+}
+
 /// The equations at one point, everything that depends on the place being at its mean.
 class PointSystem {
  public:
-  explicit PointSystem(const Model& model) : equations_(model.equations()), size_(model.species_count()) {}
+  explicit PointSystem(const Model& model) : equations_(model.equations()), size_(model.species_count()) {
+    for (std::size_t i = 0; i < size_; ++i)
+      (model.algebraic(i) ? algebraic_ : evolving_).push_back(static_cast<Eigen::Index>(i));
+  }
 
-  std::size_t size() const { return size_; }
-  VectorXd rate(const VectorXd& u) const { return vector(equations_.rate, u); }
-  VectorXd initial() const { return vector(equations_.initial, VectorXd::Zero(static_cast<Eigen::Index>(size_))); }
+  const std::vector<Eigen::Index>& evolving() const { return evolving_; }
+  /// All species from the evolving ones, where nothing varies in space.
+  VectorXd complete(const VectorXd& evolving) const {
+    VectorXd u = VectorXd::Zero(static_cast<Eigen::Index>(size_));
+    u(evolving_) = evolving;
+    if (!algebraic_.empty()) u(algebraic_) = vector(equations_.rate, u)(algebraic_).eval();
+    return u;
+  }
+  /// Rates of the evolving species.
+  VectorXd rate(const VectorXd& u) const { return vector(equations_.rate, u)(evolving_); }
+  VectorXd initial() const {
+    const VectorXd all = vector(equations_.initial, VectorXd::Zero(static_cast<Eigen::Index>(size_)));
+    return complete(all(evolving_));
+  }
+  /// Of all species; the R of an algebraic one is its formula minus itself.
   MatrixXd jacobian(const VectorXd& u) const {
     const auto n = static_cast<Eigen::Index>(size_);
-    return vector(equations_.jacobian, u).reshaped<Eigen::RowMajor>(n, n);
+    MatrixXd j = vector(equations_.jacobian, u).reshaped<Eigen::RowMajor>(n, n);
+    for (const Eigen::Index a : algebraic_) j(a, a) -= 1;
+    return j;
   }
+  /// Of the evolving species alone.
+  MatrixXd reduced_jacobian(const VectorXd& u) const { return eliminated(jacobian(u), evolving_, algebraic_); }
   VectorXd diffusion(const VectorXd& u) const {
     return vector(equations_.prefactor, u).cwiseProduct(vector(equations_.diffusion, u));
   }
@@ -50,25 +76,27 @@ class PointSystem {
 
   const Equations& equations_;
   const std::size_t size_;
+  std::vector<Eigen::Index> evolving_, algebraic_;
 };
 
 /// Newton's method with halved steps while the residual does not fall. The pseudo-inverse lets it converge to a
 /// point of a line of steady states too (conserved quantities make the Jacobian singular there).
 std::optional<VectorXd> steady_state_from(const PointSystem& system, VectorXd u) {
+  const auto& evolving = system.evolving();
   VectorXd rate = system.rate(u);
   for (int iteration = 0; iteration < 60 && rate.allFinite(); ++iteration) {
-    const MatrixXd jacobian = system.jacobian(u);
+    const MatrixXd jacobian = system.reduced_jacobian(u);
     if (!jacobian.allFinite()) return std::nullopt;
     const VectorXd step = jacobian.completeOrthogonalDecomposition().solve(rate);
     const double size = 1e-3 + u.norm();
     if (step.norm() <= 1e-13 * size)
       return rate.norm() <= 1e-9 * jacobian.norm() * size ? std::optional(u) : std::nullopt;
     double length = 1;
-    VectorXd next = u - step;
+    VectorXd next = system.complete(u(evolving) - step);
     VectorXd next_rate = system.rate(next);
     while (length > 1e-4 && !(next_rate.norm() < rate.norm())) {
       length /= 2;
-      next = u - length * step;
+      next = system.complete(u(evolving) - length * step);
       next_rate = system.rate(next);
     }
     if (!next_rate.allFinite()) return std::nullopt;
@@ -83,17 +111,19 @@ std::optional<VectorXd> steady_state_from(const PointSystem& system, VectorXd u)
 std::vector<VectorXd> starting_points(const PointSystem& system) {
   constexpr std::uint64_t seed = 1;  // any: the points only have to be spread out
   constexpr int count = 300;
-  const auto n = static_cast<Eigen::Index>(system.size());
-  std::vector<VectorXd> starts = {system.initial(), VectorXd::Zero(n), VectorXd::Ones(n)};
+  const auto n = std::ssize(system.evolving());
+  std::vector<VectorXd> starts = {system.initial(), system.complete(VectorXd::Zero(n)),
+                                  system.complete(VectorXd::Ones(n))};
   for (int k = 0; k < count; ++k) {
     VectorXd u(n);
     for (Eigen::Index i = 0; i < n; ++i) {
-      const auto counter = static_cast<std::uint64_t>(k) * system.size() * 2 + static_cast<std::uint64_t>(2 * i);
+      const auto counter =
+          static_cast<std::uint64_t>(k) * system.evolving().size() * 2 + static_cast<std::uint64_t>(2 * i);
       const double magnitude = std::pow(10.0, 4 * uniform(seed, counter) - 2.5);
       // Concentrations are mostly positive; every fourth start also looks elsewhere.
       u[i] = k % 4 == 0 && uniform(seed, counter + 1) < 0.5 ? -magnitude : magnitude;
     }
-    starts.push_back(u);
+    starts.push_back(system.complete(u));
   }
   return starts;
 }
@@ -110,10 +140,25 @@ std::vector<VectorXd> find_steady_states(const PointSystem& system) {
   return states;
 }
 
+MatrixXd square(const std::vector<double>& by_row, Eigen::Index n) {
+  return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(by_row.data(), n, n);
+}
+
 MatrixXd jacobian_of(const Stability& stability) {
-  const auto n = static_cast<Eigen::Index>(stability.diffusion.size());
-  return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-      stability.jacobian.data(), n, n);
+  return square(stability.jacobian, static_cast<Eigen::Index>(stability.diffusion.size()));
+}
+
+/// J - k^2 D of the evolving species.
+MatrixXd evolution(const Stability& stability, double k2) {
+  MatrixXd matrix = jacobian_of(stability);
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    matrix(i, i) -= k2 * stability.diffusion[static_cast<std::size_t>(i)];
+  if (stability.cross.empty()) return matrix;
+  matrix -= k2 * square(stability.cross, matrix.rows());
+  std::vector<Eigen::Index> evolving, algebraic;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    (stability.algebraic[static_cast<std::size_t>(i)] ? algebraic : evolving).push_back(i);
+  return eliminated(matrix, evolving, algebraic);
 }
 
 std::vector<std::complex<double>> sorted_eigenvalues(const MatrixXd& matrix) {
@@ -130,8 +175,11 @@ std::vector<std::complex<double>> sorted_eigenvalues(const MatrixXd& matrix) {
 class Dispersion {
  public:
   explicit Dispersion(const Stability& stability) : stability_(stability) {
-    const double fastest = *std::ranges::max_element(stability.diffusion);
-    const double slowest = smallest_positive(stability.diffusion);
+    std::vector<double> diffusions;
+    for (const auto* list : {&stability.diffusion, &stability.cross})
+      for (const double d : *list) diffusions.push_back(std::fabs(d));
+    const double fastest = *std::ranges::max_element(diffusions);
+    const double slowest = smallest_positive(diffusions);
     scale_ = jacobian_of(stability).norm();
     if (!std::isfinite(fastest) || !(slowest > 0) || !(scale_ > 0)) return;
     // Diffusion over one wavelength is as fast as the reaction between these two wave numbers; three more
@@ -249,16 +297,17 @@ Stability analyse(const Model& model) {
   const auto by_row = jacobian.reshaped<Eigen::RowMajor>();
   result.jacobian.assign(by_row.begin(), by_row.end());
   result.diffusion.assign(diffusion.begin(), diffusion.end());
-  result.eigenvalues = sorted_eigenvalues(jacobian);
+  if (!model.coupled().empty()) {
+    result.cross = model.equations().cross;
+    result.algebraic = model.equations().algebraic;
+  }
+  result.eigenvalues = sorted_eigenvalues(evolution(result, 0));
   analyse_dispersion(result);
   return result;
 }
 
 std::complex<double> growth_rate(const Stability& stability, double wave_number) {
-  MatrixXd matrix = jacobian_of(stability);
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    matrix(i, i) -= wave_number * wave_number * stability.diffusion[static_cast<std::size_t>(i)];
-  return sorted_eigenvalues(matrix).front();
+  return sorted_eigenvalues(evolution(stability, wave_number * wave_number)).front();
 }
 
 double model_wavelength(const Model& model) {

@@ -15,9 +15,11 @@ namespace pelage {
 struct Stability {
   std::vector<std::vector<double>> steady_states;  ///< all that were found, within the bounds of the species
   std::size_t chosen = 0;         ///< the one nearest to the mean initial values; what follows is about it
-  std::vector<double> jacobian;   ///< dR_i/du_j at [i * n + j]
+  std::vector<double> jacobian;   ///< dR_i/du_j at [i * n + j]; for an algebraic species R is its formula minus itself
   std::vector<double> diffusion;  ///< C0 * C1 of each species there
-  std::vector<std::complex<double>> eigenvalues;  ///< of the Jacobian, largest real part first
+  std::vector<double> cross;  ///< coefficient of lap(u_j) in equation i at [i * n + j], j != i; empty if there is none
+  std::vector<char> algebraic;                    ///< per species: its R stays 0; empty if all evolve
+  std::vector<std::complex<double>> eigenvalues;  ///< of the evolving species at k = 0, largest real part first
 
   std::optional<double> wavelength;  ///< 2 pi / k where growth(k) has its highest interior maximum, if it has one
   double growth = 0;                 ///< largest real part of sigma: at that wavelength, else over all k
@@ -30,6 +32,7 @@ struct Stability {
 Stability analyse(const Model& model);
 
 /// The eigenvalue of J - k^2 D with the largest real part: growth rate and angular frequency of waves exp(i k x).
+/// Algebraic species are eliminated: J - k^2 D is then the Schur complement on the others.
 std::complex<double> growth_rate(const Stability& stability, double wave_number);
 
 /// Spacing of the pattern in model length units: the measured one of the model's file, otherwise the critical

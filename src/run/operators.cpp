@@ -6,6 +6,7 @@
 #include "base/random.h"
 #include "linalg/conjugate_gradient.h"
 #include "pelage/error.h"
+#include "time/step_support.h"
 
 namespace pelage {
 
@@ -78,6 +79,7 @@ void Operators::build_species(const Program& program, const VertexAttributes& at
     s.upper = model_.upper(i);
     s.stiffness = &stiffness_;
     s.diffusion = scale;
+    s.algebraic = model_.algebraic(i);
     if (const auto constant = model_.diffusion_constant(i)) {
       s.diffusion *= *constant;
     } else {
@@ -92,6 +94,7 @@ void Operators::build_species(const Program& program, const VertexAttributes& at
     }
     system_.species.push_back(s);
   }
+  couple_species(scale);
   system_.reaction.rates = [this](const FieldPointers& u, double t, std::size_t begin, std::size_t end,
                                   const MutableFieldPointers& rate) { kinetics_->rates(u, t, begin, end, rate); };
   system_.reaction.split = [this](const FieldPointers& u, double t, std::size_t begin, std::size_t end,
@@ -100,6 +103,21 @@ void Operators::build_species(const Program& program, const VertexAttributes& at
   system_.weighted_mass = [this](const Vector& factor) {
     return assembler_->mass(control_, std::vector<double>(factor.begin(), factor.end()));
   };
+}
+
+void Operators::couple_species(double scale) {
+  CoupledSpecies& c = system_.coupled;
+  c.index = model_.coupled();
+  c.stiffness = &stiffness_;
+  const auto n = std::ssize(c.index);
+  c.diffusion.resize(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const std::size_t i = c.index[static_cast<std::size_t>(k)];
+    system_.species[i].coupled = true;
+    for (Eigen::Index l = 0; l < n; ++l)
+      c.diffusion(k, l) = scale * model_.cross_diffusion(i, c.index[static_cast<std::size_t>(l)]);
+    c.diffusion(k, k) = system_.species[i].diffusion;
+  }
 }
 
 /// C1 of one species; the initial state stands in for a missing one.
@@ -154,6 +172,9 @@ std::vector<Vector> Operators::initial() const {
     coefficients.push_back(coefficients_from_samples(sampling_, mass_, samples));
     coefficients.back() = coefficients.back().cwiseMax(model_.lower(i)).cwiseMin(model_.upper(i));
   }
+  if (!solve_algebraic(system_, 0, coefficients, 1e-10).converged)
+    throw Error(Fault::numerics,
+                "the initial " + coupled_names(system_) + " cannot be found: the solve did not converge");
   return coefficients;
 }
 

@@ -37,6 +37,7 @@ class Operators {
 
  private:
   void build_species(const Program& program, const VertexAttributes& attributes);
+  void couple_species(double scale);
   std::vector<double> diffusion_at_quadrature(std::size_t species, const State* state) const;
   bool diffusion_varies_in_time(std::size_t species) const;
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "time/step_support.h"
 
 namespace pelage {
@@ -15,20 +17,40 @@ class ForwardEuler final : public Stepper {
     next_.resize(system.species.size());
     for (std::size_t i = 0; i < system.species.size(); ++i) {
       const Species& species = system.species[i];
+      next_[i] = state.now[i];
+      if (species.algebraic) continue;
       mass_.update(*system.mass, 1, *species.stiffness, 0);
       rhs_ = load(*system.sampling, rates_[i]);
-      apply(*species.stiffness, state.now[i], flux_);
-      axpby(-species.diffusion, flux_, 1, rhs_);
+      if (species.coupled) {
+        subtract_fluxes(system, state, i);
+      } else {
+        apply(*species.stiffness, state.now[i], flux_);
+        axpby(-species.diffusion, flux_, 1, rhs_);
+      }
       slope_.setZero(rhs_.size());
       mass_.solve(rhs_, slope_, species.name, request.solver_tolerance, report);
-      next_[i] = state.now[i];
       axpby(request.dt, slope_, 1, next_[i]);
     }
+    if (!system.coupled.index.empty())
+      note_solve(solve_algebraic(system, state.time + request.dt, next_, request.solver_tolerance),
+                 coupled_names(system), report);
     advance(system, state, request.dt, next_, report);
     return report;
   }
 
  private:
+  /// rhs_ -= sum_j D_ij K u_j.
+  void subtract_fluxes(const System& system, const State& state, std::size_t i) {
+    const CoupledSpecies& c = system.coupled;
+    const auto row = std::ranges::find(c.index, i) - c.index.begin();
+    for (std::size_t k = 0; k < c.index.size(); ++k) {
+      const double d = c.diffusion(row, static_cast<Eigen::Index>(k));
+      if (d == 0) continue;
+      apply(*c.stiffness, state.now[c.index[k]], flux_);
+      axpby(-d, flux_, 1, rhs_);
+    }
+  }
+
   StepMatrix mass_;
   std::vector<Vector> samples_, rates_, next_;
   Vector rhs_, flux_, slope_;

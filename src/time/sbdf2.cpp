@@ -7,44 +7,50 @@ namespace pelage {
 
 namespace {
 
-/// Diffusion implicit, reaction extrapolated. With omega = dt / (previous dt):
+/// All Laplacians implicit, reaction extrapolated. With omega = dt / (previous dt):
 ///   (1+2w)/(1+w) M u^(n+1) + dt K u^(n+1)
 ///       = M ((1+w) u^n - w^2/(1+w) u^(n-1)) + dt load((1+w) R^n - w R^(n-1))
-/// The first step is semi-implicit Euler; its one local error of second order does not spoil the order.
+/// The first step is semi-implicit Euler; its one local error of second order does not spoil the order. Coupled species
+/// have sum_j D_ij K u_j^(n+1) and are solved for together; algebraic ones have
+///   M u_i^(n+1) + sum_j D_ij K u_j^(n+1) = load((1+w) R_i^n - w R_i^(n-1)).
 class Sbdf2 final : public Stepper {
  public:
   StepReport step(const System& system, State& state, const StepRequest& request) override;
 
  private:
+  /// alpha M u^(n+1) = load of now u^n + before u^(n-1) + rate_now R^n + rate_before R^(n-1), less dt times the fluxes.
   struct Scheme {
     double alpha, now, before, rate_now, rate_before;
   };
   static Scheme scheme(const State& state, double dt);
+  void solve_coupled(const System& system, const State& state, const Scheme& s, const StepRequest& request,
+                     StepReport& report);
   void first_guess(const State& state, std::size_t species, double dt);
-  void right_hand_side(const System& system, const Scheme& s, std::size_t species, double dt);
+  void right_hand_side(const System& system, const Scheme& s, std::size_t species);
   static double error_estimate(const System& system, const State& state, const std::vector<Vector>& next, double dt);
 
   std::vector<StepMatrix> matrices_;
+  CoupledSolver coupled_;
   std::vector<Vector> samples_, samples_before_, rates_, rates_before_, next_;
   Vector combined_, rhs_;
 };
 
 Sbdf2::Scheme Sbdf2::scheme(const State& state, double dt) {
-  if (state.past.empty()) return {1, 1, 0, 1, 0};
+  if (state.past.empty()) return {1, 1, 0, dt, 0};
   const double w = dt / state.past_steps[0];
-  return {(1 + 2 * w) / (1 + w), 1 + w, -w * w / (1 + w), 1 + w, -w};
+  return {(1 + 2 * w) / (1 + w), 1 + w, -w * w / (1 + w), dt * (1 + w), dt * -w};
 }
 
-/// rhs_ = A'W (s.now u^n + s.before u^(n-1) + dt (s.rate_now R^n + s.rate_before R^(n-1))), all at the samples, because
+/// rhs_ = A'W (s.now u^n + s.before u^(n-1) + s.rate_now R^n + s.rate_before R^(n-1)), all at the samples, because
 /// M u = A'W (A u).
-void Sbdf2::right_hand_side(const System& system, const Scheme& s, std::size_t i, double dt) {
+void Sbdf2::right_hand_side(const System& system, const Scheme& s, std::size_t i) {
   const Vector& weight = system.sampling->weight;
   combined_.resize(weight.size());
-  const bool first = s.before == 0;
+  const bool first = s.rate_before == 0;
   parallel_for(static_cast<std::size_t>(weight.size()), [&](std::size_t begin, std::size_t end) {
     for (auto k = static_cast<Eigen::Index>(begin); k < static_cast<Eigen::Index>(end); ++k) {
-      double sum = s.now * samples_[i][k] + dt * s.rate_now * rates_[i][k];
-      if (!first) sum += s.before * samples_before_[i][k] + dt * s.rate_before * rates_before_[i][k];
+      double sum = s.now * samples_[i][k] + s.rate_now * rates_[i][k];
+      if (!first) sum += s.before * samples_before_[i][k] + s.rate_before * rates_before_[i][k];
       combined_[k] = weight[k] * sum;
     }
   });
@@ -63,6 +69,7 @@ double Sbdf2::error_estimate(const System& system, const State& state, const std
   const double scale = 6 * (2.0 / 3) * dt * dt * dt;
   double worst = 0;
   for (std::size_t i = 0; i < next.size(); ++i) {
+    if (system.species[i].algebraic) continue;  // no error of its own is carried on
     const Vector &u0 = next[i], &u1 = state.now[i], &u2 = state.past[0][i], &u3 = state.past[1][i];
     const Species& s = system.species[i];
     auto free = [&](double u) { return u > s.lower && u < s.upper; };
@@ -96,6 +103,28 @@ void Sbdf2::first_guess(const State& state, std::size_t i, double dt) {
   axpby(dt * (dt + t1) / (t2 * (t2 - t1)), state.past[1][i], 1, next_[i]);
 }
 
+/// The rows of all coupled species, each divided by what stands before M u_i^(n+1).
+void Sbdf2::solve_coupled(const System& system, const State& state, const Scheme& s, const StepRequest& request,
+                          StepReport& report) {
+  const CoupledSpecies& c = system.coupled;
+  Eigen::MatrixXd flux = c.diffusion;
+  std::vector<Vector> b, x;
+  for (std::size_t k = 0; k < c.index.size(); ++k) {
+    const std::size_t i = c.index[k];
+    const bool algebraic = system.species[i].algebraic;
+    const double dt = request.dt;
+    right_hand_side(system, algebraic ? Scheme{1, 0, 0, s.rate_now / dt, s.rate_before / dt} : s, i);
+    b.push_back(algebraic ? rhs_ : rhs_ / s.alpha);
+    if (!algebraic) flux.row(static_cast<Eigen::Index>(k)) *= dt / s.alpha;
+    first_guess(state, i, dt);
+    x.push_back(std::move(next_[i]));
+  }
+  coupled_.update(*system.mass, *c.stiffness, flux);
+  note_solve(coupled_.solve(*c.stiffness, b, x, {.tolerance = request.solver_tolerance}), coupled_names(system),
+             report);
+  for (std::size_t k = 0; k < c.index.size(); ++k) next_[c.index[k]] = std::move(x[k]);
+}
+
 StepReport Sbdf2::step(const System& system, State& state, const StepRequest& request) {
   const double dt = request.dt;
   const Scheme s = scheme(state, dt);
@@ -110,11 +139,13 @@ StepReport Sbdf2::step(const System& system, State& state, const StepRequest& re
   next_.resize(system.species.size());
   for (std::size_t i = 0; i < system.species.size(); ++i) {
     const Species& species = system.species[i];
+    if (species.coupled) continue;
     matrices_[i].update(*system.mass, s.alpha, *species.stiffness, dt * species.diffusion);
-    right_hand_side(system, s, i, dt);
+    right_hand_side(system, s, i);
     first_guess(state, i, dt);
     matrices_[i].solve(rhs_, next_[i], species.name, request.solver_tolerance, report);
   }
+  if (!system.coupled.index.empty()) solve_coupled(system, state, s, request, report);
   if (report.failure.empty()) {
     report.error = error_estimate(system, state, next_, dt);
     if (report.error > request.largest_error) return report;

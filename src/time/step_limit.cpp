@@ -15,9 +15,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 struct Linearisation {
-  MatrixXd jacobian;
-  VectorXd diffusion, c2;  ///< c2: the implicit part of the paper's scheme
-  double growth = 0;       ///< of the fastest mode, at least 0
+  MatrixXd jacobian, diffusion;
+  VectorXd c2;        ///< the implicit part of the paper's scheme
+  VectorXd evolving;  ///< 1, or 0 for an algebraic species
+  double growth = 0;  ///< of the fastest mode, at least 0
 };
 
 /// C2 of every species at a uniform state, curvatures and attributes being 0.
@@ -44,20 +45,33 @@ VectorXd split_at(const Model& model, const std::vector<double>& state) {
   return Eigen::Map<VectorXd>(c2.data(), static_cast<Eigen::Index>(n));
 }
 
+/// One step of the explicit scheme, by which algebraic species follow without delay.
+MatrixXd explicit_step(const Linearisation& l, double dt, const MatrixXd& decay) {
+  const MatrixXd evolving = l.evolving.asDiagonal();
+  const MatrixXd one = MatrixXd::Identity(decay.rows(), decay.rows());
+  // Rows of algebraic species: (1 + mu D) w' = (dR/du) u', all taken at the new time.
+  const MatrixXd follow = one - (one - evolving) * (one + l.jacobian - decay);
+  return follow.inverse() * evolving * (one + dt * (l.jacobian - decay));
+}
+
 /// One step of the scheme for a wave with k^2 = mu, as a matrix on the amplitudes (of two steps for sbdf2).
 MatrixXd amplification(const Linearisation& l, const std::string& stepper, double dt, double mu) {
   const Eigen::Index n = l.jacobian.rows();
   const MatrixXd one = MatrixXd::Identity(n, n);
-  const MatrixXd decay = (mu * l.diffusion).asDiagonal();
-  if (stepper == "explicit") return one + dt * (l.jacobian - decay);
+  const MatrixXd decay = mu * l.diffusion;
+  if (stepper == "explicit") return explicit_step(l, dt, decay);
   if (stepper == "paper") {
     const MatrixXd c2 = l.c2.asDiagonal();
     return (one - dt * c2 + dt * decay).inverse() * (one + dt * (l.jacobian - c2));
   }
-  const MatrixXd inverse = (1.5 * one + dt * decay).inverse();
+  const VectorXd algebraic = VectorXd::Ones(n) - l.evolving;
+  const MatrixXd evolving = l.evolving.asDiagonal(), scale = (dt * l.evolving + algebraic).asDiagonal();
+  // The Jacobian of an algebraic species is that of its formula minus itself, and only the formula is extrapolated.
+  const MatrixXd rates = scale * (l.jacobian + MatrixXd(algebraic.asDiagonal()));
+  const MatrixXd inverse = (1.5 * evolving + MatrixXd(algebraic.asDiagonal()) + scale * decay).inverse();
   MatrixXd g = MatrixXd::Zero(2 * n, 2 * n);
-  g.topLeftCorner(n, n) = inverse * (2 * one + 2 * dt * l.jacobian);
-  g.topRightCorner(n, n) = -inverse * (0.5 * one + dt * l.jacobian);
+  g.topLeftCorner(n, n) = inverse * (2 * evolving + 2 * rates);
+  g.topRightCorner(n, n) = -inverse * (0.5 * evolving + rates);
   g.bottomLeftCorner(n, n) = one;
   return g;
 }
@@ -83,10 +97,14 @@ double largest_stable_step(const Model& model, const std::string& stepper, doubl
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Linearisation l;
   l.jacobian = Eigen::Map<const RowMajor>(s.jacobian.data(), n, n);
-  l.diffusion = Eigen::Map<const VectorXd>(s.diffusion.data(), n);
+  l.diffusion = Eigen::Map<const VectorXd>(s.diffusion.data(), n).asDiagonal();
+  if (!s.cross.empty()) l.diffusion += Eigen::Map<const RowMajor>(s.cross.data(), n, n);
+  l.evolving = VectorXd::Ones(n);
+  for (std::size_t i = 0; i < s.algebraic.size(); ++i)
+    if (s.algebraic[i]) l.evolving[static_cast<Eigen::Index>(i)] = 0;
   l.c2 = split_at(model, s.steady_states[s.chosen]);
   l.growth = std::max(0.0, s.growth);
-  const double rate = l.jacobian.cwiseAbs().maxCoeff() + largest_k2 * l.diffusion.maxCoeff();
+  const double rate = l.jacobian.cwiseAbs().maxCoeff() + largest_k2 * l.diffusion.cwiseAbs().maxCoeff();
   if (!(rate > 0)) return std::numeric_limits<double>::infinity();
   constexpr double ratio = 1.1;
   double good = 1e-3 / rate;

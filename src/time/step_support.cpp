@@ -26,6 +26,31 @@ void evaluate_rates(const System& system, const std::vector<Vector>& samples, do
                [&](std::size_t begin, std::size_t end) { system.reaction.rates(u, t, begin, end, out); });
 }
 
+SolveReport solve_algebraic(const System& system, double t, std::vector<Vector>& coefficients, double tolerance) {
+  const CoupledSpecies& c = system.coupled;
+  std::vector<Eigen::Index> algebraic;
+  for (std::size_t k = 0; k < c.index.size(); ++k)
+    if (system.species[c.index[k]].algebraic) algebraic.push_back(static_cast<Eigen::Index>(k));
+  if (algebraic.empty()) return {.converged = true};
+  std::vector<Vector> samples, rates, rhs, values;
+  sample_fields(system, coefficients, samples);
+  evaluate_rates(system, samples, t, rates);
+  for (const Eigen::Index row : algebraic) {
+    rhs.push_back(load(*system.sampling, rates[c.index[static_cast<std::size_t>(row)]]));
+    values.push_back(coefficients[c.index[static_cast<std::size_t>(row)]]);
+    for (std::size_t k = 0; k < c.index.size(); ++k) {
+      const double d = c.diffusion(row, static_cast<Eigen::Index>(k));
+      if (d != 0 && !system.species[c.index[k]].algebraic) rhs.back() -= d * (*c.stiffness * coefficients[c.index[k]]);
+    }
+  }
+  CoupledSolver solver;
+  solver.update(*system.mass, *c.stiffness, c.diffusion(algebraic, algebraic));
+  const SolveReport report = solver.solve(*c.stiffness, rhs, values, {.tolerance = tolerance});
+  for (std::size_t a = 0; a < algebraic.size(); ++a)
+    coefficients[c.index[static_cast<std::size_t>(algebraic[a])]] = std::move(values[a]);
+  return report;
+}
+
 namespace {
 
 /// No concentration gets there but by blowing up, and the 32-bit numbers of the output still hold it.
@@ -54,6 +79,7 @@ void advance(const System& system, State& state, double dt, std::vector<Vector>&
     next[i] = next[i].cwiseMax(species.lower).cwiseMin(species.upper);
     report.minimum = std::min(report.minimum, next[i].minCoeff());
     report.maximum = std::max(report.maximum, next[i].maxCoeff());
+    if (species.algebraic) continue;  // follows the others, and may come to rest at a constant
     const Vector difference = next[i] - state.now[i];
     const Vector deviation = next[i].array() - next[i].mean();
     const double amplitude = std::sqrt(dot(deviation, deviation)), moved = std::sqrt(dot(difference, difference));
@@ -87,14 +113,20 @@ void StepMatrix::solve(const Vector& b, Vector& x, const std::string& species, d
   note_solve(solver_.solve(matrix_, inverse_diagonal_, b, x, {.tolerance = tolerance}), species, report);
 }
 
-void note_solve(const SolveReport& solve, const std::string& species, StepReport& report) {
+void note_solve(const SolveReport& solve, const std::string& names, StepReport& report) {
   report.iterations += solve.iterations;
   report.residual = std::max(report.residual, solve.residual);
   if (!report.failure.empty()) return;
   if (!solve.positive_definite)
-    report.failure = "the matrix of " + species + " is not positive definite: the step is too large";
+    report.failure = "the matrix of " + names + " is not positive definite: the step is too large";
   else if (!solve.converged)
-    report.failure = "the solve for " + species + " did not converge (residual " + number(solve.residual) + ")";
+    report.failure = "the solve for " + names + " did not converge (residual " + number(solve.residual) + ")";
+}
+
+std::string coupled_names(const System& system) {
+  std::string names;
+  for (const std::size_t i : system.coupled.index) names += (names.empty() ? "" : " and ") + system.species[i].name;
+  return names;
 }
 
 }  // namespace pelage

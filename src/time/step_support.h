@@ -1,7 +1,7 @@
 #pragma once
 // What all steppers share.
 
-#include "linalg/conjugate_gradient.h"
+#include "linalg/coupled_solver.h"
 #include "time/stepper.h"
 
 namespace pelage {
@@ -11,6 +11,9 @@ void sample_fields(const System& system, const std::vector<Vector>& coefficients
 
 /// Reaction rates at the samples.
 void evaluate_rates(const System& system, const std::vector<Vector>& samples, double t, std::vector<Vector>& rates);
+
+/// Replaces the coefficients of algebraic species by those that the evolving ones determine at time t.
+SolveReport solve_algebraic(const System& system, double t, std::vector<Vector>& coefficients, double tolerance);
 
 /// Moves the state to `next` (applying the clamps) unless it is not finite, and fills in change, minimum and maximum.
 void advance(const System& system, State& state, double dt, std::vector<Vector>& next, StepReport& report);
@@ -29,6 +32,8 @@ class StepMatrix {
   ConjugateGradient solver_;
 };
 
-void note_solve(const SolveReport& solve, const std::string& species, StepReport& report);
+/// `names`: of the species that were solved for.
+void note_solve(const SolveReport& solve, const std::string& names, StepReport& report);
+std::string coupled_names(const System& system);
 
 }  // namespace pelage

@@ -35,7 +35,8 @@ class Stepper {
 
 /// By name:
 ///   "sbdf2"     second-order semi-implicit backward differences, variable step (Ruuth 1995; Wang, Ruuth 2008)
-///   "paper"     eqs. (14)-(15) of Bajaj, Zhang, Xu 2008: reaction split as C2(u^n) u^(n+1) + C3(u^n), first order
+///   "paper"     eqs. (14)-(15) of Bajaj, Zhang, Xu 2008: reaction split as C2(u^n) u^(n+1) + C3(u^n), first order; not
+///               for coupled species
 ///   "explicit"  forward Euler
 /// Error(Fault::usage) otherwise.
 std::unique_ptr<Stepper> make_stepper(const std::string& name);

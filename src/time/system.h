@@ -1,6 +1,8 @@
 #pragma once
 // What a stepper sees: the semi-discrete system  M du_i/dt = -K_i u_i + load(R_i(u, t)),  one row per species i,
 // the generalised PDE (2) of Bajaj, Zhang, Xu 2008 after discretisation in space, and the state that it advances.
+// Coupled species have M du_i/dt = -sum_j D_ij K u_j + load(R_i), or, where algebraic, M u_i = -sum_j D_ij K u_j +
+// load(R_i) with an R_i that depends on evolving species only.
 
 #include <functional>
 #include <limits>
@@ -32,8 +34,17 @@ struct Species {
   std::string name;
   double diffusion = 0;  ///< D >= 0 [length^2/time]; multiplies `stiffness`
   const SparseMatrix* stiffness = nullptr;
+  bool coupled = false;  ///< part of System::coupled, which then holds the diffusion instead
+  bool algebraic = false;
   double lower = -std::numeric_limits<double>::infinity();  ///< clamps of the coefficients after a step; as the basis
   double upper = std::numeric_limits<double>::infinity();   ///< functions are non-negative they bound the field too
+};
+
+/// Species that are linked by constant coefficients of Laplacians and are solved for together.
+struct CoupledSpecies {
+  std::vector<std::size_t> index;  ///< into System::species; empty when there are none
+  Eigen::MatrixXd diffusion;       ///< D_ij [length^2/time; length^2 in algebraic rows], row and column k: index[k]
+  const SparseMatrix* stiffness = nullptr;  ///< of unit diffusion
 };
 
 /// Borrowed for one step.
@@ -41,6 +52,7 @@ struct System {
   const SparseMatrix* mass = nullptr;  ///< = values' W values of `sampling`
   const Sampling* sampling = nullptr;
   std::vector<Species> species;
+  CoupledSpecies coupled;
   Reaction reaction;
   /// Mass matrix weighted by a factor at the samples; only the semi-implicit stepper of the paper needs it.
   std::function<SparseMatrix(const Vector& factor)> weighted_mass;
