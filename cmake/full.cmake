@@ -7,6 +7,7 @@ find_package(nlohmann_json 3.11 REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(PkgConfig REQUIRED)
 find_path(STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb REQUIRED)
+find_file(DEJAVU_SANS DejaVuSans.ttf PATHS /usr/share/fonts PATH_SUFFIXES truetype/dejavu dejavu TTF dejavu-sans-fonts REQUIRED)
 find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
 find_library(TINYGLTF_LIBRARY tinygltf REQUIRED)
 
@@ -26,7 +27,14 @@ add_custom_command(OUTPUT ${embedded_cpp}
     -P ${PROJECT_SOURCE_DIR}/cmake/embed.cmake
   DEPENDS ${data_paths} ${PROJECT_SOURCE_DIR}/cmake/embed.cmake VERBATIM)
 
-add_library(pelage STATIC ${full_sources} ${embedded_cpp})
+# The font of labels in pictures is compiled in as well.
+set(font_cpp ${PROJECT_BINARY_DIR}/embedded_font.cpp)
+add_custom_command(OUTPUT ${font_cpp}
+  COMMAND ${CMAKE_COMMAND} -DINPUT=${DEJAVU_SANS} -DNAME=DejaVuSans.ttf -DOUTPUT=${font_cpp}
+    -P ${PROJECT_SOURCE_DIR}/cmake/embed_font.cmake
+  DEPENDS ${DEJAVU_SANS} ${PROJECT_SOURCE_DIR}/cmake/embed_font.cmake VERBATIM)
+
+add_library(pelage STATIC ${full_sources} ${embedded_cpp} ${font_cpp})
 add_library(pelage::pelage ALIAS pelage)
 target_include_directories(pelage PRIVATE src)
 target_include_directories(pelage SYSTEM PRIVATE ${STB_INCLUDE_DIR} ${TINYGLTF_INCLUDE_DIR})

@@ -5,7 +5,7 @@ set -eu
 
 packages="
   g++ make cmake ninja-build git pkg-config python3
-  libeigen3-dev libtbb-dev libembree-dev libtinygltf-dev libstb-dev
+  libeigen3-dev libtbb-dev libembree-dev libtinygltf-dev libstb-dev fonts-dejavu-core
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev
   libgtest-dev libbenchmark-dev libosd-dev $*"
 

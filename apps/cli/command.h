@@ -19,6 +19,9 @@ struct Command {
 Command add_grow(CLI::App& parent);
 Command add_check(CLI::App& parent);
 Command add_models(CLI::App& parent);
+Command add_analyse(CLI::App& parent);
+Command add_map(CLI::App& parent);
+Command add_gallery(CLI::App& parent);
 Command add_fair(CLI::App& parent);
 Command add_compare(CLI::App& parent);
 Command add_recipes(CLI::App& parent);

@@ -1,7 +1,5 @@
 #include "grow_options.h"
 
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <map>
 
@@ -13,6 +11,7 @@
 #include "io/read_shape.h"
 #include "io/write_mesh.h"
 #include "look/ramp.h"
+#include "settings.h"
 #include "shape/generators.h"
 #include "time/stepper.h"
 #include "usage.h"
@@ -37,11 +36,7 @@ void add_pattern_options(CLI::App& app, GrowOptions& o) {
   app.add_option("--recipe", o.recipe, "A built-in recipe or a .toml file; the other options override its values")
       ->type_name("NAME|FILE")
       ->group(group);
-  app.add_option("--set", o.settings, "Parameter of the model; give it once per parameter")
-      ->type_name("PARAM=VALUE")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->group(group);
+  add_settings_option(app, o.settings)->group(group);
   app.add_option("--size", o.size,
                  "Spacing of the pattern: a fraction of the shape's diagonal (default: 0.04) or a length: 4mm, 2cm, "
                  "0.1m, 3in, or 1.5u in units of the file")
@@ -135,17 +130,6 @@ void add_output_options(CLI::App& app, GrowOptions& o) {
       ->group(group);
   app.add_flag("--json", o.json, "Print what was done as JSON")->group(group);
   app.add_flag("-q,--quiet", o.quiet, "Print warnings and errors only")->group(group);
-}
-
-Stage::Setting parse_setting(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  Stage::Setting setting{text.substr(0, equals), 0, {}};
-  const char* begin = text.data() + (equals == std::string::npos ? text.size() : equals + 1);
-  const char* const end = text.data() + text.size();
-  const auto [last, error] = std::from_chars(begin, end, setting.value);
-  if (setting.name.empty() || begin == end || error != std::errc{} || last != end || !std::isfinite(setting.value))
-    throw Error(Fault::usage, "--set " + text + ": expected PARAM=VALUE with a number, for example --set s=0.06");
-  return setting;
 }
 
 template <class T, class Target>

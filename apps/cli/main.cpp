@@ -22,6 +22,7 @@ constexpr const char* examples = R"(Examples:
   pelage grow builtin:animal --ramp leopard -o cub.glb
   pelage check cow.obj
   pelage models turing
+  pelage analyse turing --set Da=0.15 --plot growth.png
   pelage grow --help
 
 Exit codes: 0 done; 2 wrong usage, unknown name or parameter; 3 an input that cannot be
@@ -73,8 +74,10 @@ int main(int argc, char** argv) {
   app.formatter(std::make_shared<pelage::HelpFormat>());
   app.footer(examples);
   const std::vector<pelage::Command> commands = {
-      pelage::add_grow(app), pelage::add_check(app),   pelage::add_models(app), pelage::add_recipes(app),
-      pelage::add_fair(app), pelage::add_compare(app), pelage::add_verify(app)};
+    const std::vector<pelage::Command> commands = {
+        pelage::add_grow(app), pelage::add_check(app), pelage::add_models(app), pelage::add_analyse(app),
+        pelage::add_map(app), pelage::add_gallery(app), pelage::add_recipes(app), pelage::add_fair(app),
+        pelage::add_compare(app), pelage::add_verify(app)};
   if (argc == 1) {
     std::fputs(app.help().c_str(), stderr);
     return static_cast<int>(Fault::usage);

@@ -285,15 +285,24 @@ void analyse_dispersion(Stability& stability) {
 Stability analyse(const Model& model) {
   const PointSystem system(model);
   const std::vector<VectorXd> states = find_steady_states(system);
-  Stability result;
-  if (states.empty()) return result;
+  if (states.empty()) return {};
   const VectorXd initial = system.initial();
   const auto distance = [&](const VectorXd& state) { return (state - initial).norm(); };
   const auto nearest = std::ranges::min_element(states, {}, distance);
-  result.chosen = static_cast<std::size_t>(nearest - states.begin());
+  Stability result = analyse_at(model, {nearest->begin(), nearest->end()});
+  result.steady_states.clear();
   for (const VectorXd& state : states) result.steady_states.emplace_back(state.begin(), state.end());
-  const MatrixXd jacobian = system.jacobian(*nearest);
-  const VectorXd diffusion = system.diffusion(*nearest);
+  result.chosen = static_cast<std::size_t>(nearest - states.begin());
+  return result;
+}
+
+Stability analyse_at(const Model& model, const std::vector<double>& steady_state) {
+  const PointSystem system(model);
+  const VectorXd state = Eigen::Map<const VectorXd>(steady_state.data(), std::ssize(steady_state));
+  Stability result;
+  result.steady_states = {steady_state};
+  const MatrixXd jacobian = system.jacobian(state);
+  const VectorXd diffusion = system.diffusion(state);
   const auto by_row = jacobian.reshaped<Eigen::RowMajor>();
   result.jacobian.assign(by_row.begin(), by_row.end());
   result.diffusion.assign(diffusion.begin(), diffusion.end());

@@ -31,6 +31,9 @@ struct Stability {
 /// none, `steady_states` and all else stay empty.
 Stability analyse(const Model& model);
 
+/// The same about one given steady state, which is the only one in `steady_states`.
+Stability analyse_at(const Model& model, const std::vector<double>& steady_state);
+
 /// The eigenvalue of J - k^2 D with the largest real part: growth rate and angular frequency of waves exp(i k x).
 /// Algebraic species are eliminated: J - k^2 D is then the Schur complement on the others.
 std::complex<double> growth_rate(const Stability& stability, double wave_number);

@@ -44,10 +44,10 @@ grep -qE '^pelage [0-9]+\.[0-9]+\.[0-9]+$' stdout || fail "--version says $(cat 
 "$pelage" >stdout 2>stderr
 [ $? -eq 2 ] && [ ! -s stdout ] && grep -q Usage stderr || fail "no arguments: help on stderr and exit code 2 expected"
 succeed --help
-for command in grow check models recipes verify; do
+for command in grow check models analyse map recipes verify; do
   grep -q "^  $command " stdout || fail "--help does not list $command"
 done
-for command in grow check models recipes verify; do
+for command in grow check models analyse map recipes verify; do
   succeed $command --help
   grep -q "pelage $command" stdout || fail "$command --help has no example"
   [ "$(wc -L <stdout)" -le 100 ] || fail "$command --help is wider than 100 columns"
@@ -75,6 +75,17 @@ expect 2 '--set s=1e: expected PARAM=VALUE' grow $sphere -o a.ply --set s=1e
 expect 2 'nothing to write' grow $sphere
 expect 2 'no shape to grow on' grow -o a.ply
 expect 2 'unknown model "turin".*did you mean "turing"' grow missing.obj -o a.ply --model turin
+expect 2 'MODEL is required' analyse
+expect 2 'unknown model "turin".*did you mean "turing"' analyse turin
+expect 2 'turing.toml.*"q"|.*parameter "q"' analyse turing --set q=1
+expect 2 'a.jpg: .*end the name in .png' analyse turing --plot a.jpg
+expect 2 'd=1:2: expected PARAM=FROM:TO|--x is required' map schnakenberg --y d=1:2
+expect 2 '--x d=5: expected PARAM=FROM:TO' map schnakenberg --x d=5 --y a=0.1:0.2
+expect 2 '--x and --y both vary d' map schnakenberg --x d=5:6 --y d=5:6
+expect 2 '-n 3: expected COLUMNSxROWS' map schnakenberg --x d=5:6 --y a=0.1:0.2 -n 3
+expect 2 '.*no parameter "q"' map schnakenberg --x q=5:6 --y a=0.1:0.2
+expect 2 'parameter "d" is -5' map schnakenberg --x d=-5:6 --y a=0.1:0.2
+expect 2 'unknown species "w"' map schnakenberg --x d=5:6 --y a=0.1:0.2 --species w
 expect 2 'unknown recipe "dem".*did you mean "demo"' grow --recipe dem -o a.ply
 expect 2 'unknown ramp "leopart".*did you mean "leopard"' grow $sphere -o a.ply --ramp leopart
 expect 2 'unknown method "lopo".*did you mean "loop"' grow $sphere -o a.ply --method lopo
@@ -103,6 +114,8 @@ mkdir -p folder.ply folder.png
 expect 5 'nowhere/a.ply: the folder nowhere does not exist' grow missing.obj -o nowhere/a.ply
 expect 5 'nowhere/a.png: ' grow missing.obj --picture nowhere/a.png
 expect 5 'nowhere/a: ' grow missing.obj -o a.ply --checkpoint nowhere/a
+expect 5 'nowhere/a.png: ' map turing --x s=0.1:0.2 --y Da=1:2 -o nowhere/a.png
+expect 5 'nowhere/a.png: ' analyse turing --plot nowhere/a.png
 expect 5 'folder.ply: ' grow missing.obj -o folder.ply
 expect 5 'folder.png: ' grow missing.obj --picture folder.png
 [ ! -e a.ply ] || fail "an output appeared although nothing was grown"
@@ -144,6 +157,28 @@ grep -q '^wrote *a.ply' stdout && grep -q '^growth *3 steps' stdout || fail "gro
 grep -q $'\r' stderr && fail "a progress bar went into a pipe"
 succeed models turing
 grep -q 'db/dt = div(Db grad b)' stdout && grep -q unevenness stdout || fail "models turing shows no equations"
+
+# --- linear theory -------------------------------------------------------------------------------------------
+succeed analyse schnakenberg --set d=5 --plot growth.png
+grep -q 'no pattern: D_v / D_u must be above 8.568, here it is 5' stdout || fail "analyse does not name the threshold: $(cat stdout)"
+grep -q '^Largest stable steps: unknown' stdout || fail "analyse does not say why there are no largest steps"
+python3 -c "import struct; d=open('growth.png','rb').read(); assert d[:4] == b'\x89PNG' and struct.unpack('>II', d[16:24]) == (1600, 1000)" ||
+  fail "growth.png is not a picture of 1600 x 1000"
+succeed analyse gray-scott --set F=0.04,k=0.055 --json
+is_json stdout
+json 'len(d["steady_states"]) == 3 and d["steady_states"][0]["uniform"] == "stable"'
+succeed analyse brusselator --json
+json 'abs(d["thresholds"][1]["diffusion"] - 4 / (3 ** .5 - 1) ** 2) < 1e-4 and all(c["holds"] for c in d["conditions"])'
+json '0 < d["largest_steps"]["explicit"] < d["largest_steps"]["sbdf2"]'
+
+# --- maps: the regimes are known from theory, whatever the number of threads ------------------------------------
+map=(map schnakenberg --x d=6:12 --y a=0.1:0.12 -n 2x1 --side 25 --until 120)
+succeed "${map[@]}" -o map.png --json
+is_json stdout
+json '[c["outcome"] for c in d["cells"]] == ["uniform", "pattern"]'
+succeed "${map[@]}" -o one.png --threads 1
+grep -q '2: 1 with a pattern, 1 uniform, 0 failed' stdout || fail "map says: $(cat stdout)"
+cmp map.png one.png || fail "1 and 2 threads give different maps"
 
 # --- recipes: options override them --------------------------------------------------------------------------
 printf 'shape = "%s"\n[stage]\nmodel = "turing"\nsteps = 2\nsize = 0.3\n[stage.parameters]\ns = 0.06\n' $sphere >own.toml

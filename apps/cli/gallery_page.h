@@ -1,0 +1,25 @@
+#pragma once
+// The index of a gallery: one page without scripts, with relative links.
+
+#include <string>
+#include <vector>
+
+namespace pelage {
+
+struct GalleryPicture {
+  std::string file;     ///< in the folder of the page
+  std::string caption;  ///< what it shows
+  std::string failure;  ///< instead of the picture, if not empty
+};
+
+/// A model or a variant.
+struct GalleryEntry {
+  std::string name;  ///< what the option --model takes
+  std::string title, summary, cite;
+  std::vector<GalleryPicture> pictures;
+};
+
+/// The text of index.html.
+std::string gallery_page(const std::vector<GalleryEntry>& entries, int picture_size);
+
+}  // namespace pelage

@@ -1,0 +1,113 @@
+#include "look/contact_sheet.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "look/canvas.h"
+#include "look/text.h"
+#include "look/ticks.h"
+
+namespace pelage {
+
+namespace {
+
+constexpr double title_size = 44, text_size = 34, small_size = 28;
+constexpr int gap = 6;  // pixels between tiles
+constexpr int left_margin = 190, right_margin = 50, top_margin = 150, bottom_margin = 130;
+
+const Color ink = {0.012, 0.012, 0.014}, pale_ink = {0.12, 0.12, 0.13}, paper = {1, 1, 1}, plain = {0.86, 0.86, 0.85};
+
+/// Every how many columns a label has room.
+int label_stride(const std::vector<std::string>& labels, double pitch, bool across) {
+  double needed = 1.2 * small_size;
+  if (across)
+    for (const std::string& label : labels) needed = std::max(needed, text_width(label, small_size) + 18);
+  return std::max(1, static_cast<int>(std::ceil(needed / pitch)));
+}
+
+std::vector<std::string> labels_of(const std::vector<double>& values) {
+  std::vector<std::string> labels;
+  for (const double v : values) labels.push_back(label_of(v));
+  return labels;
+}
+
+class SheetPainter {
+ public:
+  explicit SheetPainter(const ContactSheet& sheet)
+      : sheet_(sheet),
+        columns_(static_cast<int>(sheet.x.size())),
+        rows_(static_cast<int>(sheet.y.size())),
+        pitch_(sheet.tile + gap),
+        canvas_(left_margin + columns_ * pitch_ - gap + right_margin, top_margin + rows_ * pitch_ - gap + bottom_margin,
+                paper) {}
+
+  Image paint() {
+    for (int j = 0; j < rows_; ++j)
+      for (int i = 0; i < columns_; ++i) paint_cell(i, j);
+    paint_words();
+    paint_labels();
+    return canvas_.image();
+  }
+
+ private:
+  int left(int i) const { return left_margin + i * pitch_; }
+  int top(int j) const { return top_margin + (rows_ - 1 - j) * pitch_; }
+
+  void paint_cell(int i, int j) {
+    const SheetCell& cell = sheet_.cells[static_cast<std::size_t>(j * columns_ + i)];
+    const double x = left(i), y = top(j), tile = sheet_.tile;
+    if (cell.picture) {
+      canvas_.picture(*cell.picture, left(i), top(j));
+      return;
+    }
+    canvas_.fill({x, y, x + tile, y + tile}, plain);
+    if (cell.crossed) {
+      canvas_.line({{x, y}, {x + tile, y + tile}}, 2, pale_ink);
+      canvas_.line({{x, y + tile}, {x + tile, y}}, 2, pale_ink);
+    }
+    const double size = std::min(small_size, tile / 6);
+    if (size < 12 || cell.word.empty()) return;
+    const double half = text_width(cell.word, size) / 2 + 6;
+    const Spot middle = {x + tile / 2, y + tile / 2};
+    canvas_.fill({middle.x - half, middle.y - 0.6 * size, middle.x + half, middle.y + 0.6 * size}, plain);
+    canvas_.text(cell.word, {middle.x, middle.y + size / 3.4}, {size, pale_ink, Align::centre});
+  }
+
+  void paint_words() {
+    const double room = canvas_.width() - left_margin - right_margin;
+    canvas_.text(fitted_text(sheet_.title, title_size, room), {left_margin, 62}, {title_size, ink});
+    canvas_.text(fitted_text(sheet_.subtitle, small_size, room), {left_margin, 110}, {small_size, pale_ink});
+    const double middle_x = left_margin + (columns_ * pitch_ - gap) / 2.0;
+    const double middle_y = top_margin + (rows_ * pitch_ - gap) / 2.0;
+    canvas_.text(sheet_.x_label, {middle_x, canvas_.height() - 34.0}, {text_size, ink, Align::centre});
+    canvas_.text(sheet_.y_label, {52, middle_y}, {text_size, ink, Align::centre, true});
+  }
+
+  void paint_labels() {
+    const auto across = labels_of(sheet_.x), upwards = labels_of(sheet_.y);
+    for (int i = 0; i < columns_; i += label_stride(across, pitch_, true))
+      canvas_.text(across[static_cast<std::size_t>(i)],
+                   {left(i) + sheet_.tile / 2.0, top(0) + sheet_.tile + 1.4 * small_size},
+                   {small_size, ink, Align::centre});
+    for (int j = 0; j < rows_; j += label_stride(upwards, pitch_, false))
+      canvas_.text(upwards[static_cast<std::size_t>(j)],
+                   {left_margin - 16.0, top(j) + sheet_.tile / 2.0 + small_size / 3.4},
+                   {small_size, ink, Align::right});
+  }
+
+  const ContactSheet& sheet_;
+  const int columns_, rows_, pitch_;
+  Canvas canvas_;
+};
+
+}  // namespace
+
+int sheet_tile(int columns, int rows) { return std::clamp(1440 / std::max(columns, rows) - gap, 40, 280); }
+
+Image draw(const ContactSheet& sheet) {
+  assert(sheet.cells.size() == sheet.x.size() * sheet.y.size());
+  return SheetPainter(sheet).paint();
+}
+
+}  // namespace pelage

@@ -1,0 +1,148 @@
+#include "run/parameter_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/job_progress.h"
+#include "base/parallel.h"
+#include "pelage/error.h"
+#include "shape/generators.h"
+
+namespace pelage {
+
+namespace {
+
+constexpr double wavelengths_per_side = 5;
+/// A cell whose pattern would be finer than this share of the longest wavelength is run at this resolution.
+constexpr double finest_share = 0.4;
+constexpr double vertices_per_wavelength = 6;  // as in operators.cpp
+constexpr std::int64_t steps_per_slice = 20;
+/// With deviations this small against the fields nothing is left that could grow again.
+constexpr double dead_contrast = 1e-7;
+
+std::vector<Model> compile_cells(const MapRequest& request) {
+  std::vector<Model> models;
+  for (int j = 0; j < request.y.count; ++j)
+    for (int i = 0; i < request.x.count; ++i) {
+      Overrides overrides = request.settings;
+      overrides[request.x.parameter] = request.x.at(i);
+      overrides[request.y.parameter] = request.y.at(j);
+      models.push_back(compile(request.model, overrides));
+    }
+  return models;
+}
+
+/// The finest and the coarsest length that linear theory, or the model's file, gives.
+struct Lengths {
+  double shortest = 0, longest = 0;
+};
+
+Lengths pattern_lengths(const MapRequest& request, const std::vector<MapCell>& cells) {
+  std::vector<double> lengths;
+  if (request.model.wavelength) lengths.push_back(*request.model.wavelength);
+  for (const MapCell& cell : cells)
+    if (cell.linear.band_min) lengths.push_back(*cell.linear.wavelength);
+  if (lengths.empty() && request.side) lengths.push_back(*request.side / wavelengths_per_side);
+  if (lengths.empty())
+    throw Error(Fault::usage,
+                "no wave grows in any cell and the model names no wavelength: give the side of the squares, or other "
+                "ranges");
+  const auto [shortest, longest] = std::ranges::minmax(lengths);
+  return {std::max(shortest, finest_share * longest), longest};
+}
+
+/// The unit square with triangles so small that no run refines them.
+TriangleMesh square(double wavelength) {
+  const double edge = wavelength / vertices_per_wavelength, leg = edge / std::sqrt(2.0);
+  const double per_side = std::ceil(1 / leg) + 1;
+  return builtin_shape("builtin:plane?n=" + std::to_string(std::max(100L, std::lround(per_side * per_side))));
+}
+
+Program cell_program(const MapRequest& request, const Model& model, const TriangleMesh& shape, double wavelength,
+                     double side) {
+  const Suggestions& suggested = model.source().suggestions;
+  Program p;
+  p.shape = shape;
+  p.model = model;
+  p.method = "loop";
+  p.stepper = "sbdf2";
+  p.size = wavelength / side;
+  p.length_unit = 1 / side;
+  p.suggested_step = suggested.step.value_or(1);
+  p.until = request.until.value_or(suggested.end.value_or(1000));
+  p.stationary = suggested.tolerance.value_or(0);
+  p.seed = request.seed;
+  return p;
+}
+
+double range_of(const Vector& u) { return u.maxCoeff() - u.minCoeff(); }
+
+/// Contrast of the coefficients against the largest magnitude of each species so far.
+class Contrast {
+ public:
+  explicit Contrast(const Run& run) : scale_(run.coefficients().size(), 0.0) { update(run); }
+  void update(const Run& run) {
+    for (std::size_t i = 0; i < scale_.size(); ++i)
+      scale_[i] = std::max(scale_[i], run.coefficients()[i].lpNorm<Eigen::Infinity>());
+  }
+  double of(const Run& run, std::size_t i) const {
+    return scale_[i] > 0 ? range_of(run.coefficients()[i]) / scale_[i] : 0;
+  }
+  double largest(const Run& run) const {
+    double contrast = 0;
+    for (std::size_t i = 0; i < scale_.size(); ++i) contrast = std::max(contrast, of(run, i));
+    return contrast;
+  }
+
+ private:
+  std::vector<double> scale_;
+};
+
+void run_cell(MapCell& cell, Program program, std::size_t species, const std::function<bool(double)>& report) {
+  Run run(std::move(program));
+  Contrast contrast(run);
+  while (!run.done() && contrast.largest(run) > dead_contrast) {
+    if (!report(run.fraction())) return;
+    run.advance(steps_per_slice);
+    contrast.update(run);
+  }
+  cell.summary = run.summary();
+  cell.contrast = contrast.of(run, species);
+  cell.outcome = cell.contrast < uniform_contrast ? CellOutcome::uniform : CellOutcome::pattern;
+  if (run.summary().status == RunStatus::failed) cell.outcome = CellOutcome::failed;
+  cell.fields = run.fields();
+  report(1);
+}
+
+std::vector<MapCell> empty_cells(const MapRequest& request, const std::vector<Model>& models) {
+  std::vector<MapCell> cells(models.size());
+  parallel_chunks(cells.size(), [&](std::size_t c) {
+    cells[c].x = request.x.at(static_cast<int>(c) % request.x.count);
+    cells[c].y = request.y.at(static_cast<int>(c) / request.x.count);
+    cells[c].linear = analyse(models[c]);
+  });
+  return cells;
+}
+
+}  // namespace
+
+ParameterMap run_map(const MapRequest& request, const Progress& progress) {
+  const std::vector<Model> models = compile_cells(request);
+  ParameterMap map;
+  map.cells = empty_cells(request, models);
+  const Lengths lengths = pattern_lengths(request, map.cells);
+  map.side = request.side.value_or(wavelengths_per_side * lengths.longest);
+  const TriangleMesh shape = square(lengths.shortest / map.side);
+  JobProgress jobs(progress, "running the cells", models.size());
+  parallel_chunks(models.size(), [&](std::size_t c) {
+    const auto report = [&](double fraction) { return jobs.report(c, fraction); };
+    if (!report(0)) return;
+    Program program = cell_program(request, models[c], shape, lengths.shortest, map.side);
+    // Cells are too small to be shared among threads, and there are enough of them.
+    run_on_one_thread([&] { run_cell(map.cells[c], std::move(program), request.species, report); });
+  });
+  if (jobs.cancelled()) throw Error(Fault::cancelled, "cancelled");
+  return map;
+}
+
+}  // namespace pelage
