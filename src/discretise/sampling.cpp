@@ -93,7 +93,8 @@ Sampling quadrature_sampling(const Discretisation& d, const std::vector<Point>& 
   return s;
 }
 
-SparseMatrix sampled_mass(const Sampling& s, const std::shared_ptr<const SparsePattern>& pattern) {
+SparseMatrix sampled_mass(const Sampling& s, const Vector& weight,
+                          const std::shared_ptr<const SparsePattern>& pattern) {
   SparseMatrix mass = zeros(pattern);
   const SparsePattern& samples_of = *s.transposed.pattern;
   const SparsePattern& functions_of = *s.values.pattern;
@@ -101,7 +102,7 @@ SparseMatrix sampled_mass(const Sampling& s, const std::shared_ptr<const SparseP
     for (std::size_t i = begin; i < end; ++i)
       for (auto k = samples_of.start[i]; k < samples_of.start[i + 1]; ++k) {
         const auto sample = at(samples_of.column[at(k)]);
-        const double factor = s.transposed.value[at(k)] * s.weight[static_cast<Eigen::Index>(sample)];
+        const double factor = s.transposed.value[at(k)] * weight[static_cast<Eigen::Index>(sample)];
         for (auto j = functions_of.start[sample]; j < functions_of.start[sample + 1]; ++j)
           mass.value[at(pattern->find(static_cast<std::int32_t>(i), functions_of.column[at(j)]))] +=
               factor * s.values.value[at(j)];

@@ -28,8 +28,9 @@ Sampling vertex_sampling(const Discretisation& discretisation, const std::vector
 /// Samples at the quadrature points, the reference.
 Sampling quadrature_sampling(const Discretisation& discretisation, const std::vector<Point>& control);
 
-/// values' W values in a pattern that contains it.
-SparseMatrix sampled_mass(const Sampling& sampling, const std::shared_ptr<const SparsePattern>& pattern);
+/// values' W values in a pattern that contains it; `weight` stands for W.
+SparseMatrix sampled_mass(const Sampling& sampling, const Vector& weight,
+                          const std::shared_ptr<const SparsePattern>& pattern);
 
 /// values' (W f).
 Vector load(const Sampling& sampling, const Vector& f);

@@ -40,7 +40,7 @@ void require_in_range(const ParameterSource& parameter, const Location& where) {
 
 void apply_overrides(ModelSource& model, const Overrides& overrides) {
   for (const auto& [name, value] : overrides) {
-    const auto same = [&](const ParameterSource& parameter) { return parameter.name == name; };
+    const auto same = [&name = name](const ParameterSource& parameter) { return parameter.name == name; };
     const auto found = std::ranges::find_if(model.parameters, same);
     if (found == model.parameters.end()) {
       std::vector<std::string> names;
@@ -306,6 +306,10 @@ std::vector<std::size_t> Model::coupled() const {
   for (std::size_t i = 0; i < species_count(); ++i)
     if (is_coupled(*equations_, i)) list.push_back(i);
   return list;
+}
+
+bool Model::varying_prefactor(std::size_t i) const {
+  return !equations_->graph.constant_value(equations_->prefactor[i]);
 }
 
 unsigned Model::diffusion_dependence(std::size_t i) const {

@@ -127,6 +127,8 @@ class Model {
 
   /// C0 * C1 of species i where both are numbers; otherwise see Kinetics::diffusion. Not negative unless coupled.
   std::optional<double> diffusion_constant(std::size_t i) const;
+  /// Whether C0 of species i is not a number.
+  bool varying_prefactor(std::size_t i) const;
   /// What C0 and C1 of species i vary with: bits of Dependence.
   unsigned diffusion_dependence(std::size_t i) const;
   double lower(std::size_t i) const { return equations_->lower[i]; }

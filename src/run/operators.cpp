@@ -53,7 +53,7 @@ Operators::Operators(const Program& program, const Progress& progress)
     sampling_ = quadrature_sampling(*discretisation_, control_);
   } else {
     sampling_ = vertex_sampling(*discretisation_, control_, mass_);
-    mass_ = sampled_mass(sampling_, mass_.pattern);
+    mass_ = sampled_mass(sampling_, sampling_.weight, mass_.pattern);
   }
   const VertexAttributes attributes = refined(program.shape, attributes_read(model_, program.shape), levels_);
   const PlaceFields fields = program.stepper == "paper"
@@ -61,6 +61,20 @@ Operators::Operators(const Program& program, const Progress& progress)
                                  : vertex_fields(model_, *discretisation_, control_, attributes);
   kinetics_ = std::make_unique<Kinetics>(model_, fields.places(length_unit_), program.seed);
   build_species(program, attributes);
+}
+
+/// The variable coefficients of one species at its initial state, or at `state`.
+void Operators::fill_variable(std::size_t i, const State* state) {
+  Variable& v = *variable_[i];
+  v.stiffness = assembler_->stiffness(control_, c1_at_quadrature(i, state));
+  if (model_.varying_prefactor(i)) {
+    v.weight = sampling_.weight.cwiseQuotient(c0_at_samples(i, state));
+    v.mass = sampled_mass(sampling_, v.weight, mass_.pattern);
+    system_.species[i].mass = &v.mass;
+    system_.species[i].weight = &v.weight;
+  }
+  system_.species[i].stiffness = &v.stiffness;
+  ++system_.species[i].revision;
 }
 
 bool Operators::diffusion_varies_in_time(std::size_t i) const {
@@ -80,19 +94,17 @@ void Operators::build_species(const Program& program, const VertexAttributes& at
     s.stiffness = &stiffness_;
     s.diffusion = scale;
     s.algebraic = model_.algebraic(i);
-    if (const auto constant = model_.diffusion_constant(i)) {
-      s.diffusion *= *constant;
-    } else {
-      if (!quadrature_kinetics_) {
-        const PlaceFields fields = quadrature_fields(model_, *discretisation_, control_, attributes);
-        quadrature_kinetics_ = std::make_unique<Kinetics>(model_, fields.places(length_unit_), program.seed);
-        quadrature_values_ = quadrature_values(*discretisation_);
-      }
-      variable_[i] =
-          std::make_unique<SparseMatrix>(assembler_->stiffness(control_, diffusion_at_quadrature(i, nullptr)));
-      s.stiffness = variable_[i].get();
-    }
+    const auto constant = model_.diffusion_constant(i);
+    if (constant) s.diffusion *= *constant;
     system_.species.push_back(s);
+    if (constant) continue;
+    if (!quadrature_kinetics_) {
+      const PlaceFields fields = quadrature_fields(model_, *discretisation_, control_, attributes);
+      quadrature_kinetics_ = std::make_unique<Kinetics>(model_, fields.places(length_unit_), program.seed);
+      quadrature_values_ = quadrature_values(*discretisation_);
+    }
+    variable_[i] = std::make_unique<Variable>();
+    fill_variable(i, nullptr);
   }
   couple_species(scale);
   system_.reaction.rates = [this](const FieldPointers& u, double t, std::size_t begin, std::size_t end,
@@ -120,35 +132,63 @@ void Operators::couple_species(double scale) {
   }
 }
 
-/// C1 of one species; the initial state stands in for a missing one.
-std::vector<double> Operators::diffusion_at_quadrature(std::size_t species, const State* state) const {
-  const std::size_t count = quadrature_kinetics_->size();
-  std::vector<Vector> fields(model_.species_count(), Vector::Zero(static_cast<Eigen::Index>(count)));
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (state)
-      fields[i] = quadrature_values_ * state->now[i];
-    else
-      quadrature_kinetics_->initial(i, std::span<double>(fields[i].data(), count));
-  }
-  std::vector<std::vector<double>> c0(fields.size(), std::vector<double>(count)), c1 = c0;
+/// C0 and C1 of all species at the places of `kinetics`, for fields given there.
+Operators::Coefficients Operators::evaluate_diffusion(const Kinetics& kinetics, const std::vector<Vector>& fields,
+                                                      double time) {
+  const std::size_t count = kinetics.size();
+  Coefficients c;
   std::vector<double*> c0_out, c1_out;
+  for (auto* list : {&c.c0, &c.c1}) list->assign(fields.size(), Vector(static_cast<Eigen::Index>(count)));
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    c0_out.push_back(c0[i].data());
-    c1_out.push_back(c1[i].data());
+    c0_out.push_back(c.c0[i].data());
+    c1_out.push_back(c.c1[i].data());
   }
-  quadrature_kinetics_->diffusion(pointers(fields), state ? state->time : 0, 0, count, c0_out, c1_out);
-  const std::string& name = model_.species_name(species);
-  if (std::any_of(c0[species].begin(), c0[species].end(), [](double c) { return c != 1; }))
-    throw Error(Fault::usage, "C0 of " + name + " varies; give it as a constant, or move it into C1");
-  if (!std::all_of(c1[species].begin(), c1[species].end(), [](double c) { return c >= 0; }))
-    throw Error(Fault::usage, "the diffusion of " + name + " is negative somewhere; it must be at least 0");
-  return std::move(c1[species]);
+  kinetics.diffusion(pointers(fields), time, 0, count, c0_out, c1_out);
+  return c;
+}
+
+/// The fields at the places of `kinetics`; initial ones stand in for a missing state.
+std::vector<Vector> Operators::fields_at(const Kinetics& kinetics, const SparseMatrix& values,
+                                         const State* state) const {
+  std::vector<Vector> fields(model_.species_count());
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (state) {
+      fields[i] = values * state->now[i];
+    } else {
+      fields[i].resize(static_cast<Eigen::Index>(kinetics.size()));
+      kinetics.initial(i, std::span<double>(fields[i].data(), kinetics.size()));
+    }
+  }
+  return fields;
+}
+
+std::vector<double> Operators::c1_at_quadrature(std::size_t species, const State* state) const {
+  const Kinetics& kinetics = *quadrature_kinetics_;
+  const Vector c1 =
+      evaluate_diffusion(kinetics, fields_at(kinetics, quadrature_values_, state), state ? state->time : 0).c1[species];
+  if (!(c1.minCoeff() >= 0))
+    throw Error(Fault::usage,
+                "the diffusion of " + model_.species_name(species) + " is negative somewhere; it must be at least 0");
+  return {c1.begin(), c1.end()};
+}
+
+/// The matrices are divided by C0: where it is 0, a thousandth of its largest value stands in.
+constexpr double smallest_share_of_c0 = 1e-3;
+
+Vector Operators::c0_at_samples(std::size_t species, const State* state) const {
+  const Vector c0 =
+      evaluate_diffusion(*kinetics_, fields_at(*kinetics_, sampling_.values, state), state ? state->time : 0)
+          .c0[species];
+  const double largest = c0.maxCoeff();
+  if (!(c0.minCoeff() >= 0 && largest > 0))
+    throw Error(Fault::usage, "C0 of " + model_.species_name(species) +
+                                  " is negative somewhere, or 0 everywhere; where it varies it must be at least 0");
+  return c0.cwiseMax(smallest_share_of_c0 * largest);
 }
 
 void Operators::update(const State& state) {
   for (std::size_t i = 0; i < variable_.size(); ++i)
-    if (variable_[i] && diffusion_varies_in_time(i))
-      *variable_[i] = assembler_->stiffness(control_, diffusion_at_quadrature(i, &state));
+    if (variable_[i] && diffusion_varies_in_time(i)) fill_variable(i, &state);
 }
 
 double Operators::largest_k2() const {

@@ -38,7 +38,14 @@ class Operators {
  private:
   void build_species(const Program& program, const VertexAttributes& attributes);
   void couple_species(double scale);
-  std::vector<double> diffusion_at_quadrature(std::size_t species, const State* state) const;
+  struct Coefficients {
+    std::vector<Vector> c0, c1;
+  };
+  static Coefficients evaluate_diffusion(const Kinetics& kinetics, const std::vector<Vector>& fields, double time);
+  std::vector<Vector> fields_at(const Kinetics& kinetics, const SparseMatrix& values, const State* state) const;
+  std::vector<double> c1_at_quadrature(std::size_t species, const State* state) const;
+  Vector c0_at_samples(std::size_t species, const State* state) const;
+  void fill_variable(std::size_t species, const State* state);
   bool diffusion_varies_in_time(std::size_t species) const;
 
   Model model_;
@@ -52,7 +59,12 @@ class Operators {
   std::unique_ptr<Kinetics> kinetics_;             ///< at the samples
   std::unique_ptr<Kinetics> quadrature_kinetics_;  ///< at the quadrature points, for diffusion that varies
   SparseMatrix quadrature_values_;
-  std::vector<std::unique_ptr<SparseMatrix>> variable_;  ///< stiffness of species whose diffusion varies
+  /// Matrices of a species whose C0 or C1 varies.
+  struct Variable {
+    SparseMatrix stiffness, mass;
+    Vector weight;
+  };
+  std::vector<std::unique_ptr<Variable>> variable_;
   System system_;
 };
 

@@ -15,12 +15,14 @@ class ForwardEuler final : public Stepper {
     evaluate_rates(system, samples_, state.time, rates_);
     StepReport report;
     next_.resize(system.species.size());
+    own_mass_.resize(system.species.size());
     for (std::size_t i = 0; i < system.species.size(); ++i) {
       const Species& species = system.species[i];
       next_[i] = state.now[i];
       if (species.algebraic) continue;
-      mass_.update(*system.mass, 1, *species.stiffness, 0);
-      rhs_ = load(*system.sampling, rates_[i]);
+      StepMatrix& mass = species.mass ? own_mass_[i] : mass_;
+      mass.update(mass_of(system, i), 1, *species.stiffness, 0, species.revision);
+      rhs_ = system.sampling->transposed * Vector(weight_of(system, i).cwiseProduct(rates_[i]));
       if (species.coupled) {
         subtract_fluxes(system, state, i);
       } else {
@@ -28,7 +30,7 @@ class ForwardEuler final : public Stepper {
         axpby(-species.diffusion, flux_, 1, rhs_);
       }
       slope_.setZero(rhs_.size());
-      mass_.solve(rhs_, slope_, species.name, request.solver_tolerance, report);
+      mass.solve(rhs_, slope_, species.name, request.solver_tolerance, report);
       axpby(request.dt, slope_, 1, next_[i]);
     }
     if (!system.coupled.index.empty())
@@ -51,7 +53,8 @@ class ForwardEuler final : public Stepper {
     }
   }
 
-  StepMatrix mass_;
+  StepMatrix mass_;  ///< of all species but those with a varying C0
+  std::vector<StepMatrix> own_mass_;
   std::vector<Vector> samples_, rates_, next_;
   Vector rhs_, flux_, slope_;
 };

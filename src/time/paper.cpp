@@ -7,7 +7,8 @@ namespace {
 
 /// Eqs. (5)-(8) of Bajaj, Zhang, Xu 2008, which (14)-(15) spell out for the Turing system:
 ///   (M - dt M[C2(u^n)] + dt K) u^(n+1) = M u^n + dt load(C3(u^n))
-/// with every coefficient taken at step n, also for the species solved second. (The L_ij printed below (14) and (15)
+/// with M, M[C2] and the load divided by C0 where it varies, and
+/// every coefficient taken at step n, also for the species solved second. (The L_ij printed below (14) and (15)
 /// have two signs exchanged; the weak forms (14), (15) and eq. (10) agree with this.)
 class PaperStepper final : public Stepper {
  public:
@@ -20,10 +21,12 @@ class PaperStepper final : public Stepper {
     next_ = state.now;
     for (std::size_t i = 0; i < system.species.size() && report.failure.empty(); ++i) {
       const Species& species = system.species[i];
-      const SparseMatrix reaction = system.weighted_mass(c2_[i]);
-      combine(1, *system.mass, -dt, reaction, matrix_);
+      const SparseMatrix& mass = mass_of(system, i);
+      const Vector over_c0 = weight_of(system, i).cwiseQuotient(system.sampling->weight);
+      const SparseMatrix reaction = system.weighted_mass(c2_[i].cwiseProduct(over_c0));
+      combine(1, mass, -dt, reaction, matrix_);
       combine(1, matrix_, dt * species.diffusion, *species.stiffness, matrix_);
-      const Vector b = *system.mass * state.now[i] + dt * load(*system.sampling, c3_[i]);
+      const Vector b = mass * state.now[i] + dt * load(*system.sampling, c3_[i].cwiseProduct(over_c0));
       const Vector inverse_diagonal = diagonal(matrix_).cwiseInverse();
       note_solve(solver_.solve(matrix_, inverse_diagonal, b, next_[i], {.tolerance = request.solver_tolerance}),
                  species.name, report);

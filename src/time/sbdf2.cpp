@@ -44,7 +44,7 @@ Sbdf2::Scheme Sbdf2::scheme(const State& state, double dt) {
 /// rhs_ = A'W (s.now u^n + s.before u^(n-1) + s.rate_now R^n + s.rate_before R^(n-1)), all at the samples, because
 /// M u = A'W (A u).
 void Sbdf2::right_hand_side(const System& system, const Scheme& s, std::size_t i) {
-  const Vector& weight = system.sampling->weight;
+  const Vector& weight = weight_of(system, i);
   combined_.resize(weight.size());
   const bool first = s.rate_before == 0;
   parallel_for(static_cast<std::size_t>(weight.size()), [&](std::size_t begin, std::size_t end) {
@@ -140,7 +140,7 @@ StepReport Sbdf2::step(const System& system, State& state, const StepRequest& re
   for (std::size_t i = 0; i < system.species.size(); ++i) {
     const Species& species = system.species[i];
     if (species.coupled) continue;
-    matrices_[i].update(*system.mass, s.alpha, *species.stiffness, dt * species.diffusion);
+    matrices_[i].update(mass_of(system, i), s.alpha, *species.stiffness, dt * species.diffusion, species.revision);
     right_hand_side(system, s, i);
     first_guess(state, i, dt);
     matrices_[i].solve(rhs_, next_[i], species.name, request.solver_tolerance, report);

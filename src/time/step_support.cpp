@@ -98,8 +98,9 @@ void advance(const System& system, State& state, double dt, std::vector<Vector>&
   report.accepted = true;
 }
 
-void StepMatrix::update(const SparseMatrix& mass, double alpha, const SparseMatrix& stiffness, double beta) {
-  if (alpha == alpha_ && beta == beta_ && matrix_.pattern == mass.pattern) return;
+void StepMatrix::update(const SparseMatrix& mass, double alpha, const SparseMatrix& stiffness, double beta,
+                        std::uint64_t revision) {
+  if (alpha == alpha_ && beta == beta_ && revision == revision_ && matrix_.pattern == mass.pattern) return;
   combine(alpha, mass, beta, stiffness, matrix_);
   inverse_diagonal_ = diagonal(matrix_).cwiseInverse();
   // Vertices without triangles have empty rows.
@@ -107,6 +108,7 @@ void StepMatrix::update(const SparseMatrix& mass, double alpha, const SparseMatr
     if (!std::isfinite(d)) d = 1;
   alpha_ = alpha;
   beta_ = beta;
+  revision_ = revision;
 }
 
 void StepMatrix::solve(const Vector& b, Vector& x, const std::string& species, double tolerance, StepReport& report) {

@@ -34,7 +34,12 @@ struct Species {
   std::string name;
   double diffusion = 0;  ///< D >= 0 [length^2/time]; multiplies `stiffness`
   const SparseMatrix* stiffness = nullptr;
-  bool coupled = false;  ///< part of System::coupled, which then holds the diffusion instead
+  /// Where C0 varies: mass matrix and sample weights of this species, divided by C0 (eqs (9)-(11) of the paper);
+  /// otherwise those of the system hold.
+  const SparseMatrix* mass = nullptr;
+  const Vector* weight = nullptr;
+  std::uint64_t revision = 0;  ///< another one whenever these matrices or `stiffness` have got other values
+  bool coupled = false;        ///< part of System::coupled, which then holds the diffusion instead
   bool algebraic = false;
   double lower = -std::numeric_limits<double>::infinity();  ///< clamps of the coefficients after a step; as the basis
   double upper = std::numeric_limits<double>::infinity();   ///< functions are non-negative they bound the field too
@@ -57,6 +62,15 @@ struct System {
   /// Mass matrix weighted by a factor at the samples; only the semi-implicit stepper of the paper needs it.
   std::function<SparseMatrix(const Vector& factor)> weighted_mass;
 };
+
+inline const SparseMatrix& mass_of(const System& system, std::size_t species) {
+  const SparseMatrix* own = system.species[species].mass;
+  return own ? *own : *system.mass;
+}
+inline const Vector& weight_of(const System& system, std::size_t species) {
+  const Vector* own = system.species[species].weight;
+  return own ? *own : system.sampling->weight;
+}
 
 /// The only thing that a run changes; what a checkpoint stores.
 struct State {

@@ -36,7 +36,7 @@ std::vector<Vector> integrate(const Problem& p, const std::string& stepper_name,
   const Assembler assembler(p.discretisation);
   const Sampling sampling =
       paper ? quadrature_sampling(p.discretisation, p.control) : vertex_sampling(p.discretisation, p.control, p.mass);
-  const SparseMatrix mass = paper ? p.mass : sampled_mass(sampling, p.mass.pattern);
+  const SparseMatrix mass = paper ? p.mass : sampled_mass(sampling, sampling.weight, p.mass.pattern);
   System system;
   system.mass = &mass;
   system.sampling = &sampling;

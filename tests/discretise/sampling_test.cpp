@@ -61,7 +61,7 @@ TEST(Sampling, SampledMassIsTheProduct) {
       const Eigen::MatrixXd a = dense(sampling.values);
       EXPECT_EQ(dense(sampling.transposed), Eigen::MatrixXd(a.transpose()));
       const Eigen::MatrixXd expected = a.transpose() * sampling.weight.asDiagonal() * a;
-      const Eigen::MatrixXd mass = dense(sampled_mass(sampling, s.mass.pattern));
+      const Eigen::MatrixXd mass = dense(sampled_mass(sampling, sampling.weight, s.mass.pattern));
       EXPECT_LT((mass - expected).cwiseAbs().maxCoeff(), 1e-14);
     }
   }
@@ -71,7 +71,7 @@ TEST(Sampling, SampledMassIsTheProduct) {
 TEST(QuadratureSampling, HasTheConsistentMass) {
   const Surface s("builtin:cube?n=300");
   const Sampling sampling = quadrature_sampling(s.discretisation, s.control);
-  EXPECT_LT((dense(sampled_mass(sampling, s.mass.pattern)) - dense(s.mass)).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LT((dense(sampled_mass(sampling, sampling.weight, s.mass.pattern)) - dense(s.mass)).cwiseAbs().maxCoeff(), 1e-15);
   EXPECT_NEAR(sampling.weight.sum(), area(s), 1e-12);
 }
 
@@ -79,7 +79,7 @@ TEST(Sampling, CoefficientsReproduceTheSamples) {
   for (const std::string& spec : shapes) {
     const Surface s(spec);
     const Sampling sampling = vertex_sampling(s.discretisation, s.control, s.mass);
-    const SparseMatrix mass = sampled_mass(sampling, s.mass.pattern);
+    const SparseMatrix mass = sampled_mass(sampling, sampling.weight, s.mass.pattern);
     const Vector samples = testing::random_vector(sampling.count(), 5);
     const Vector again = sampling.values * coefficients_from_samples(sampling, mass, samples);
     EXPECT_LT((again - samples).cwiseAbs().maxCoeff(), 1e-8) << spec;

@@ -17,7 +17,7 @@ struct Bench {
       : problem(make_problem(builtin_shape(spec), "loop", false)), assembler(problem.discretisation) {
     sampling = stepper == "paper" ? quadrature_sampling(problem.discretisation, problem.control)
                                   : vertex_sampling(problem.discretisation, problem.control, problem.mass);
-    mass = sampled_mass(sampling, problem.mass.pattern);
+    mass = sampled_mass(sampling, sampling.weight, problem.mass.pattern);
     system.mass = &mass;
     system.sampling = &sampling;
     system.weighted_mass = [this](const Vector& f) {
