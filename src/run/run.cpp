@@ -121,7 +121,7 @@ void Run::check_stop() {
 void Run::fail(const StepReport& report) {
   summary_.status = RunStatus::failed;
   summary_.message = "step " + std::to_string(state_.step + 1) + ", time " + number(state_.time) + ": " +
-                     report.failure + "; " +
+                     (report.failure.empty() ? "no step is small enough to keep the error" : report.failure) + "; " +
                      (program_.step ? "halve the step or leave it to the stepper"
                                     : "check the parameters of the model, or give a smaller --step");
 }

@@ -1,0 +1,130 @@
+// What every shipped model and variant must do in a run, without a line of its own. docs/models.md says how it is
+// measured.
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <cmath>
+#include <fstream>
+
+#include "catalog/models.h"
+#include "catalog/resolve.h"
+#include "react/stability.h"
+#include "shape/generators.h"
+#include "verify/early_growth.h"
+#include "verify/finished_pattern.h"
+
+namespace pelage {
+namespace {
+
+/// Of FinishedPattern::contrast. Uniform states stay below 1e-4; the faintest pattern that is shipped, white eyes in
+/// the weaker layer of coupled Brusselators, has 1e-2.
+constexpr double least_contrast = 5e-3;
+
+Program program(const std::string& model, const TriangleMesh& shape, double size, std::uint64_t seed = 1) {
+  Recipe recipe;
+  recipe.stage.model.value = model;
+  recipe.stage.size = Given<Length>{{size, false}, {}};
+  recipe.stage.seed = seed;
+  recipe.stage.interpolate = true;
+  return resolve(recipe, shape);
+}
+
+void expect_pattern(const FinishedPattern& pattern) {
+  EXPECT_NE(pattern.status, RunStatus::failed) << pattern.message;
+  EXPECT_GE(pattern.contrast, least_contrast);
+}
+
+class GrownModel : public testing::TestWithParam<std::string> {};
+
+TEST_P(GrownModel, PatternOfItsWavelengthOnASphere) {
+  const TriangleMesh sphere = builtin_shape("builtin:sphere?n=642");
+  const FinishedPattern pattern = finish_pattern(program(GetParam(), sphere, 0.9));
+  expect_pattern(pattern);
+  const double reference = model_wavelength(compile(load_model(GetParam())));
+  // Coupled layers have a wavelength each; their file gives that of the layer that is shown.
+  const bool coupled = GetParam().starts_with("coupled-");
+  EXPECT_NEAR(coupled ? pattern.shown_wavelength : pattern.wavelength, reference, 0.15 * reference);
+}
+
+TEST_P(GrownModel, PatternOnTheAnimal) {
+  static const TriangleMesh animal = builtin_shape("builtin:animal?n=600");
+  expect_pattern(finish_pattern(program(GetParam(), animal, 0.2 * bounding_diagonal(animal))));
+}
+
+TEST_P(GrownModel, FastestWaveOfTheEarlyGrowth) {
+  const ModelSource source = load_model(GetParam());
+  Overrides even;
+  for (const ParameterSource& p : source.parameters)
+    if (p.name == "unevenness") even[p.name] = 0;
+  const Model model = compile(source, even);
+  for (const NodeId rate : model.equations().rate)
+    if (model.equations().graph[rate].dependence & (on_place | on_time))
+      GTEST_SKIP() << "the rates vary in space or time";
+  const Stability stability = analyse(model);
+  if (!stability.band_max || stability.oscillatory) GTEST_SKIP() << "no uniform state that is Turing-unstable";
+  const EarlyGrowth growth = measure_early_growth(GetParam(), 1002, 9);
+  EXPECT_NEAR(growth.wavelength, *stability.wavelength, 0.05 * *stability.wavelength);
+}
+
+std::vector<std::string> all_names() {
+  std::vector<std::string> names;
+  for (const ModelEntry& entry : model_list()) names.push_back(entry.name);
+  return names;
+}
+
+std::string test_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, GrownModel, testing::ValuesIn(all_names()), test_name);
+
+/// A system that is not shipped: Degn and Harrison 1969 (respiration of bacteria), written as CONTRIBUTING says.
+constexpr const char* degn_harrison = R"toml(
+name = "degn-harrison"
+title = "Degn-Harrison"
+cite = "Degn, Harrison 1969, J. Theor. Biol. 22, 238-248"
+summary = "Oxygen u and nutrient v of a bacterial culture."
+
+[species.v]
+diffusion = "d"
+rate = "a - h"
+initial = "a*(1 + k*(b - a)^2)/(b - a)"
+min = 0
+
+[species.u]
+diffusion = 1
+rate = "b - u - h"
+initial = "(b - a)*(1 + 0.01*noise(3))"
+min = 0
+
+[definitions]
+h = "u*v/(1 + k*u^2)"
+
+[parameters]
+a = { value = 10, min = 0, max = 20, unit = "1", help = "supply of v" }
+b = { value = 16, min = 0, max = 20, unit = "1", help = "supply of u" }
+k = { value = 0.3, min = 0, max = 10, unit = "1", help = "inhibition by u" }
+d = { value = 40, min = 0, max = 1000, unit = "1", help = "diffusion of v over that of u" }
+
+[suggested]
+step = 0.05
+end = 100
+tolerance = 1e-3
+)toml";
+
+TEST(AddedModel, IsAnalysedAndGrownFromItsFile) {
+  const std::string path = testing::TempDir() + "pelage_added_model.toml";
+  std::ofstream(path) << degn_harrison;
+  const Stability stability = analyse(compile(load_model(path)));
+  ASSERT_TRUE(stability.wavelength);
+  EXPECT_GT(stability.growth, 0);
+  EXPECT_NEAR(measure_early_growth(path, 1002, 9).wavelength, *stability.wavelength, 0.05 * *stability.wavelength);
+  expect_pattern(finish_pattern(program(path, builtin_shape("builtin:sphere?n=642"), 0.9)));
+  std::remove(path.c_str());
+}
+
+}  // namespace
+}  // namespace pelage
