@@ -1,6 +1,6 @@
 # Thin verbs over the CMake presets. On a bare Debian 12 run `sh tools/setup.sh` once: it installs make, too.
 .DEFAULT_GOAL := build
-.PHONY: setup build demo test bench test-clients format format-check tidy asan clean
+.PHONY: setup build demo test bench test-clients format format-check tidy asan fuzz clean
 
 JOBS ?= $(shell nproc)
 CMAKE_BUILD := cmake --build --parallel $(JOBS) --preset
@@ -37,6 +37,13 @@ asan: setup  ## every test under the address and undefined-behaviour sanitizers
 	@cmake --preset asan
 	@$(CMAKE_BUILD) asan
 	@ctest --preset asan --parallel $(JOBS)
+
+fuzz:  ## ten minutes of random texts for the model reader; what crashes it stays in build/fuzz
+	@sh tools/setup.sh clang
+	@cmake --preset fuzz
+	@$(CMAKE_BUILD) fuzz --target model_fuzzer
+	@mkdir -p build/fuzz/found
+	cd build/fuzz && bin/model_fuzzer -max_total_time=600 -timeout=20 -max_len=20000 found ../../tests/fuzz/corpus ../../models
 
 format:  ## bring all sources into the house's format
 	@clang-format -i $(CXX_FILES)
