@@ -117,8 +117,7 @@ ContactSheet make_sheet(const MapOptions& options, const MapRequest& request, co
   ContactSheet sheet;
   sheet.title = options.model;
   for (const std::string& text : options.settings) sheet.title += ", " + text;
-  sheet.subtitle = look.species->value + " on squares of side " + brief(map.side) + " without flux through the sides" +
-                   "; each on its own scale";
+  sheet.subtitle = look.species->value + " on flat squares of side " + brief(map.side) + ", each on its own scale";
   sheet.x_label = request.x.parameter;
   sheet.y_label = request.y.parameter;
   for (int i = 0; i < request.x.count; ++i) sheet.x.push_back(request.x.at(i));

@@ -8,6 +8,7 @@ namespace pelage {
 
 namespace {
 
+/// Four significant digits: enough for a threshold.
 std::string text_of(double value) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%.4g", value);

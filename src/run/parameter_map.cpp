@@ -6,7 +6,7 @@
 #include "base/job_progress.h"
 #include "base/parallel.h"
 #include "pelage/error.h"
-#include "shape/generators.h"
+#include "shape/topology.h"
 
 namespace pelage {
 
@@ -51,11 +51,39 @@ Lengths pattern_lengths(const MapRequest& request, const std::vector<MapCell>& c
   return {std::max(shortest, finest_share * longest), longest};
 }
 
-/// The unit square with triangles so small that no run refines them.
+/// Points of one row of the square: from side to side, every other row shifted by half an edge inside.
+std::vector<Point> row_of_points(int edges, bool shifted, double y) {
+  std::vector<Point> row = {{0, y, 0}};
+  for (int i = shifted ? 0 : 1; i < edges; ++i) row.push_back({(i + (shifted ? 0.5 : 0)) / edges, y, 0});
+  row.push_back({1, y, 0});
+  return row;
+}
+
+/// Triangles between two rows whose points begin at the given numbers, the lower one first.
+void join_rows(TriangleMesh& mesh, Index lower, Index upper, Index end) {
+  const auto x = [&](Index v) { return mesh.points[static_cast<std::size_t>(v)][0]; };
+  Index a = lower, b = upper;
+  while (a + 1 < upper || b + 1 < end) {
+    const bool below = b + 1 == end || (a + 1 < upper && x(a + 1) <= x(b + 1));
+    mesh.triangles.push_back({a, below ? a + 1 : b + 1, b});
+    ++(below ? a : b);
+  }
+}
+
+/// The unit square cut into equilateral triangles so small that no run refines them.
 TriangleMesh square(double wavelength) {
-  const double edge = wavelength / vertices_per_wavelength, leg = edge / std::sqrt(2.0);
-  const double per_side = std::ceil(1 / leg) + 1;
-  return builtin_shape("builtin:plane?n=" + std::to_string(std::max(100L, std::lround(per_side * per_side))));
+  const int edges = static_cast<int>(std::ceil(vertices_per_wavelength / wavelength));
+  const int rows = static_cast<int>(std::ceil(edges * 2 / std::sqrt(3.0)));
+  TriangleMesh mesh;
+  Index lower = 0;
+  for (int j = 0; j <= rows; ++j) {
+    const auto row = row_of_points(edges, j % 2 == 1, static_cast<double>(j) / rows);
+    const auto upper = static_cast<Index>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), row.begin(), row.end());
+    if (j > 0) join_rows(mesh, lower, upper, static_cast<Index>(mesh.points.size()));
+    lower = upper;
+  }
+  return mesh;
 }
 
 Program cell_program(const MapRequest& request, const Model& model, const TriangleMesh& shape, double wavelength,

@@ -44,10 +44,10 @@ grep -qE '^pelage [0-9]+\.[0-9]+\.[0-9]+$' stdout || fail "--version says $(cat 
 "$pelage" >stdout 2>stderr
 [ $? -eq 2 ] && [ ! -s stdout ] && grep -q Usage stderr || fail "no arguments: help on stderr and exit code 2 expected"
 succeed --help
-for command in grow check models analyse map recipes verify; do
+for command in grow check models analyse map gallery recipes fair compare verify; do
   grep -q "^  $command " stdout || fail "--help does not list $command"
 done
-for command in grow check models analyse map recipes verify; do
+for command in grow check models analyse map gallery recipes fair compare verify; do
   succeed $command --help
   grep -q "pelage $command" stdout || fail "$command --help has no example"
   [ "$(wc -L <stdout)" -le 100 ] || fail "$command --help is wider than 100 columns"
@@ -179,6 +179,32 @@ json '[c["outcome"] for c in d["cells"]] == ["uniform", "pattern"]'
 succeed "${map[@]}" -o one.png --threads 1
 grep -q '2: 1 with a pattern, 1 uniform, 0 failed' stdout || fail "map says: $(cat stdout)"
 cmp map.png one.png || fail "1 and 2 threads give different maps"
+
+# --- a gallery: pictures, an index whose links all lead somewhere, failures named -------------------------------
+gallery=(gallery --size 0.4 --picture-size 64)
+expect 2 '-o|--output is required' gallery turing
+expect 2 'unknown model "turin"' gallery -o page turin
+expect 2 '--picture-size: "3" is not' gallery -o page --picture-size 3
+touch no_folder
+expect 5 'no_folder' gallery -o no_folder turing
+succeed "${gallery[@]}" -o page brusselator schnakenberg --json
+is_json stdout
+json 'len(d["pictures"]) >= 4 and all(p["failure"] is None for p in d["pictures"])'
+python3 - <<'PYTHON' || fail "the gallery's page is not whole"
+import html.parser, os, sys
+class Page(html.parser.HTMLParser):
+    def handle_starttag(self, tag, attributes):
+        for name, value in attributes:
+            if name in ("src", "href"):
+                assert "//" not in value and (value.startswith("#") or os.path.getsize(os.path.join("page", value)) > 0), value
+                if tag == "img": pictures.append(value)
+pictures = []
+Page().feed(open("page/index.html").read())
+assert "brusselator-sphere.png" in pictures and "schnakenberg-animal.png" in pictures
+PYTHON
+printf 'name = "burst"\nwavelength = 5\n[species.u]\ndiffusion = 1\nrate = "u^2"\ninitial = 1\n' >burst.toml
+expect 4 '2 of 2 pictures failed, the first: burst.toml on the sphere' "${gallery[@]}" -o broken burst.toml
+grep -q 'class="failure"' broken/index.html || fail "the index does not show what failed"
 
 # --- recipes: options override them --------------------------------------------------------------------------
 printf 'shape = "%s"\n[stage]\nmodel = "turing"\nsteps = 2\nsize = 0.3\n[stage.parameters]\ns = 0.06\n' $sphere >own.toml
