@@ -81,8 +81,8 @@ Vector solve_spd(const SparseMatrix& a, const Vector& b, const ConjugateGradient
   const Vector inverse_diagonal = diagonal(a).cwiseInverse();
   const SolveReport report = ConjugateGradient().solve(a, inverse_diagonal, b, x, options);
   if (!report.converged)
-    throw Error(Fault::numerics, "a linear system did not converge (residual " + number(report.residual) +
-                                     " after " + std::to_string(report.iterations) + " iterations)");
+    throw Error(Fault::numerics, "a linear system did not converge (residual " + number(report.residual) + " after " +
+                                     std::to_string(report.iterations) + " iterations)");
   return x;
 }
 

@@ -49,8 +49,8 @@ struct DiffusionThreshold {
 /// the uniform state is stable: by bisection over the dispersion relation, for any number of species.
 std::vector<DiffusionThreshold> diffusion_thresholds(const Stability& stability);
 
-/// The thresholds in words: "no pattern: D_a / D_b must be above 4, here it is 3.5". For two species one line, since only the
-/// ratio counts; for more one line per species.
+/// The thresholds in words: "no pattern: D_a / D_b must be above 4, here it is 3.5". For two species one line, since
+/// only the ratio counts; for more one line per species.
 std::vector<std::string> describe(const std::vector<DiffusionThreshold>& thresholds, const Stability& stability,
                                   const std::vector<std::string>& species);
 

@@ -71,7 +71,8 @@ TEST(Sampling, SampledMassIsTheProduct) {
 TEST(QuadratureSampling, HasTheConsistentMass) {
   const Surface s("builtin:cube?n=300");
   const Sampling sampling = quadrature_sampling(s.discretisation, s.control);
-  EXPECT_LT((dense(sampled_mass(sampling, sampling.weight, s.mass.pattern)) - dense(s.mass)).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LT((dense(sampled_mass(sampling, sampling.weight, s.mass.pattern)) - dense(s.mass)).cwiseAbs().maxCoeff(),
+            1e-15);
   EXPECT_NEAR(sampling.weight.sum(), area(s), 1e-12);
 }
 
