@@ -14,10 +14,13 @@ class PaperStepper final : public Stepper {
  public:
   StepReport step(const System& system, State& state, const StepRequest& request) override {
     const double dt = request.dt;
+    StepReport report;
+    if (!system.coupled.index.empty()) {
+      report.failure = "the paper's scheme does not couple species by Laplacians";
+      return report;
+    }
     sample_fields(system, state.now, samples_);
     split(system, state.time);
-    StepReport report;
-    if (!system.coupled.index.empty()) report.failure = "the paper's scheme does not couple species by Laplacians";
     next_ = state.now;
     for (std::size_t i = 0; i < system.species.size() && report.failure.empty(); ++i) {
       const Species& species = system.species[i];

@@ -64,11 +64,11 @@ void expect_dense_solution(const MatrixXd& c) {
 }
 
 TEST(CoupledSolver, AgreesWithDenseElimination) {
-  expect_dense_solution(MatrixXd{{0.7}});
-  expect_dense_solution(MatrixXd{{0, -0.3}, {1, 0}});            // biharmonic: a pair +- i sqrt(0.3)
-  expect_dense_solution(MatrixXd{{2, 1}, {-1, 0}});              // one eigenvalue twice, one eigenvector
-  expect_dense_solution(MatrixXd{{1, 5}, {0, 1}});               // the same, triangular
-  expect_dense_solution(MatrixXd{{1, -2}, {2, 1}});              // Ginzburg-Landau
+  expect_dense_solution(MatrixXd::Constant(1, 1, 0.7));
+  expect_dense_solution(MatrixXd{{0, -0.3}, {1, 0}});                 // biharmonic: a pair +- i sqrt(0.3)
+  expect_dense_solution(MatrixXd{{2, 1}, {-1, 0}});                   // one eigenvalue twice, one eigenvector
+  expect_dense_solution(MatrixXd{{1, 5}, {0, 1}});                    // the same, triangular
+  expect_dense_solution(MatrixXd{{1, -2}, {2, 1}});                   // Ginzburg-Landau
   expect_dense_solution(MatrixXd{{0, 0, -1}, {1, 0, 0}, {0, 1, 0}});  // sixth order: one real, one pair
   expect_dense_solution(MatrixXd{{0, -0.3, 0.4, 0}, {1, 0, 0, 0.2}, {0.1, 0, 2, -1}, {0, 0, 3, 1}});
 }

@@ -139,6 +139,56 @@ TEST(Stability, NoSteadyState) {
   EXPECT_TRUE(analyse(model).steady_states.empty());
 }
 
+/// sigma = r - (1 - k^2)^2 of the Swift-Hohenberg equation.
+TEST(Stability, SwiftHohenbergGrowsAtWaveNumberOne) {
+  const Stability s = analyse_model("swift-hohenberg", {{"r", 0.25}});
+  ASSERT_EQ(s.eigenvalues.size(), 1u);
+  EXPECT_NEAR(*s.wavelength, 2 * pi, 1e-5);
+  EXPECT_NEAR(s.growth, 0.25, 1e-12);
+  EXPECT_NEAR(*s.band_min, std::sqrt(0.5), 1e-9);
+  EXPECT_NEAR(*s.band_max, std::sqrt(1.5), 1e-9);
+  for (const double k : {0.0, 0.3, 1.0, 2.5})
+    EXPECT_NEAR(growth_rate(s, k).real(), 0.25 - std::pow(1 - k * k, 2), 1e-11 * (1 + std::pow(k, 4)));
+  // u = 0, and u^2 = r - 1 where that is positive.
+  EXPECT_EQ(s.steady_states.size(), 1u);
+  EXPECT_EQ(analyse_model("swift-hohenberg", {{"r", 1.25}}).steady_states.size(), 3u);
+}
+
+/// sigma = -k^2 (3 m^2 - 1 + epsilon^2 k^2), at every mean m of the conserved c.
+TEST(Stability, CahnHilliardStartsFromItsMean) {
+  const double m = 0.2, epsilon = 0.5, drive = 1 - 3 * m * m;
+  const Stability s = analyse_model("cahn-hilliard", {{"mean", m}, {"epsilon", epsilon}});
+  EXPECT_NEAR(s.steady_states[s.chosen][1], m, 1e-9);
+  EXPECT_NEAR(s.steady_states[s.chosen][0], m * m * m - 3 * m, 1e-9);
+  EXPECT_NEAR(*s.wavelength, 2 * pi * epsilon * std::sqrt(2 / drive), 1e-5);
+  EXPECT_NEAR(s.growth, drive * drive / (4 * epsilon * epsilon), 1e-9);
+  EXPECT_NEAR(*s.band_max, std::sqrt(drive) / epsilon, 1e-8);
+  EXPECT_EQ(growth_rate(s, 0).real(), 0);
+}
+
+TEST(Stability, OhtaKawasakiHasAThreshold) {
+  EXPECT_GT(analyse_model("ohta-kawasaki", {{"sigma", 0.249}}).growth, 0);
+  EXPECT_NEAR(analyse_model("ohta-kawasaki", {{"sigma", 0.25}}).growth, 0, 1e-9);
+}
+
+/// sigma = 1 - (1 +- i c1) k^2 around A = 0.
+TEST(Stability, GinzburgLandauWavesTurn) {
+  const Stability s = analyse_model("complex-ginzburg-landau", {{"c1", 2}});
+  for (const double k : {0.0, 0.5, 3.0}) {
+    EXPECT_NEAR(growth_rate(s, k).real(), 1 - k * k, 1e-12);
+    EXPECT_NEAR(growth_rate(s, k).imag(), 2 * k * k, 1e-12);
+  }
+  EXPECT_FALSE(s.wavelength);
+}
+
+/// A fast inhibitor w - L^2 lap(w) = u: its answer to a wave is u / (1 + L^2 k^2).
+TEST(Stability, AlgebraicSpeciesMayDiffuse) {
+  const Stability s = analyse(compile(parse_model(
+      "name='m'\nspecies.u={diffusion=0.1, rate='2*u - 3*w'}\nspecies.w={equals='u + 4*lap(w)'}", "m.toml")));
+  for (const double k : {0.0, 0.7, 5.0})
+    EXPECT_NEAR(growth_rate(s, k).real(), 2 - 0.1 * k * k - 3 / (1 + 4 * k * k), 1e-12);
+}
+
 TEST(Stability, FileWavelengthGoesFirst) {
   ModelSource source = load_model("schnakenberg");
   EXPECT_NEAR(model_wavelength(compile(source)), 14.9, 0.1);

@@ -22,5 +22,22 @@ TEST(StepLimit, ExplicitStepIsBoundByDiffusionOnAFineMesh) {
   EXPECT_NEAR(largest_stable_step(turing, "explicit", 1000), 2 / (0.125 * 1000), 1e-3);
 }
 
+/// Around u = 0 and at -1 on the unit circle: 4 + h mu^2 = 3 h (1 - r - 2 mu), worst at mu = 0.
+TEST(StepLimit, SwiftHohenbergIsBoundByItsReaction) {
+  const Model model = compile(load_model("swift-hohenberg"), {{"r", -0.5}});
+  EXPECT_NEAR(largest_stable_step(model, "sbdf2", 1000), 4 / (3 * 1.5), 1e-3);
+}
+
+/// The implicit 2 lap(c) outweighs what is extrapolated.
+TEST(StepLimit, CahnHilliardIsNotBound) {
+  EXPECT_GT(largest_stable_step(compile(load_model("cahn-hilliard")), "sbdf2", 1000), 100);
+}
+
+/// 2 / sigma of the shortest wave.
+TEST(StepLimit, ExplicitStepOfAFourthOrderEquationFallsWithTheFourthPower) {
+  const Model model = compile(load_model("swift-hohenberg"));
+  EXPECT_NEAR(largest_stable_step(model, "explicit", 100) * (99.0 * 99.0 - 0.3), 2, 1e-3);
+}
+
 }  // namespace
 }  // namespace pelage
