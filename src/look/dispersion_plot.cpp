@@ -18,7 +18,8 @@ const Color curve_color = parse_hex_color("#0b5f8a"), frequency_color = parse_he
 double largest_wave_number(const Stability& s) {
   double scale = 0, diffusion = 0;
   for (const auto& value : s.eigenvalues) scale = std::max(scale, std::abs(value));
-  for (const double d : s.diffusion) diffusion = std::max(diffusion, d);
+  for (const auto* list : {&s.diffusion, &s.cross})
+    for (const double d : *list) diffusion = std::max(diffusion, std::abs(d));
   double k = diffusion > 0 && scale > 0 ? 1.5 * std::sqrt(scale / diffusion) : 1;
   if (s.wavelength) k = 2 * 2 * std::numbers::pi / *s.wavelength;
   if (s.band_max && *s.band_max < 20 * k) k = std::max(k, 1.3 * *s.band_max);

@@ -31,10 +31,12 @@ class Growth {
  public:
   explicit Growth(const Stability& stability) : stability_(stability) {
     double fastest = 0, slowest = 0;
-    for (const double d : stability.diffusion) {
-      fastest = std::max(fastest, d);
-      if (d > 0 && (slowest == 0 || d < slowest)) slowest = d;
-    }
+    for (const auto* list : {&stability.diffusion, &stability.cross})
+      for (const double signed_value : *list) {
+        const double d = std::abs(signed_value);
+        fastest = std::max(fastest, d);
+        if (d > 0 && (slowest == 0 || d < slowest)) slowest = d;
+      }
     if (fastest == 0) return;
     const double scale = norm(stability.jacobian);
     low_ = std::log(1e-2 * std::sqrt(scale / fastest));
@@ -103,6 +105,9 @@ std::optional<DiffusionThreshold> nearest_threshold(const Stability& stability, 
   return DiffusionThreshold{species, value, waves_grow(stability, species, value * factor)};
 }
 
+/// Two evolving species with a diffusion each: what the classical theory is about.
+bool classical_pair(const Stability& s) { return s.diffusion.size() == 2 && s.cross.empty() && s.algebraic.empty(); }
+
 /// "WHAT = 0.3 > NAME = 0.2", or what relation there is; equal up to rounding does not hold.
 Condition condition(const std::string& what, double value, bool greater, const std::string& name, double bound) {
   const bool equal = std::abs(value - bound) <= 1e-12 * std::max(std::abs(value), std::abs(bound));
@@ -146,9 +151,9 @@ std::string describe(Regime regime) {
     case Regime::marginal:
       return "at the threshold: the fastest wave neither grows nor decays; only unevenness forces a pattern";
     case Regime::turing:
-      return "a Turing pattern: a stable uniform state that diffusion makes unstable";
+      return "a pattern: waves of a finite length grow, though the uniform state by itself is stable (Turing)";
     case Regime::waves:
-      return "waves: diffusion makes a stable uniform state unstable, and what grows oscillates";
+      return "waves: those of a finite length grow and oscillate, though the uniform state by itself is stable";
     case Regime::oscillation:
       return "no fixed pattern: the uniform state oscillates as a whole (Hopf)";
     case Regime::departure:
@@ -163,7 +168,7 @@ std::string describe(Regime regime) {
 
 std::vector<Condition> turing_conditions(const Stability& s, const std::vector<std::string>& species) {
   if (s.steady_states.empty()) return {};
-  if (species.size() == 2) return conditions_of_two(s, species);
+  if (classical_pair(s)) return conditions_of_two(s, species);
   return {condition("largest real part at k = 0", s.eigenvalues.front().real(), false, "", 0),
           condition("largest real part over all k > 0", Growth(s).largest(), true, "", 0)};
 }
@@ -181,7 +186,7 @@ std::vector<DiffusionThreshold> diffusion_thresholds(const Stability& stability)
 std::vector<std::string> describe(const std::vector<DiffusionThreshold>& thresholds, const Stability& stability,
                                   const std::vector<std::string>& species) {
   std::vector<std::string> lines;
-  const bool pair = species.size() == 2 && thresholds.size() == 2;
+  const bool pair = classical_pair(stability) && thresholds.size() == 2;
   for (const DiffusionThreshold& t : thresholds) {
     if (pair && !t.grows_above) continue;  // the other one is the same statement upside down
     const double other = pair ? stability.diffusion[1 - t.species] : 1;

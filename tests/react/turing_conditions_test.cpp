@@ -12,12 +12,24 @@ Stability analysis_of(const std::string& name, const Overrides& overrides = {}) 
   return analyse(compile(load_model(name), overrides));
 }
 
-/// The closed form for two species, u the one with J_uu > 0: with x = sqrt(D_v / D_u) the condition
-/// D_v f_u + D_u g_v = 2 sqrt(D_u D_v det J) reads f_u x^2 - 2 sqrt(det J) x + g_v = 0.
-double critical_ratio(double fu, double fv, double gu, double gv) {
-  const double determinant = fu * gv - fv * gu;
+/// Of two species the one that makes more of itself; the other inhibits or feeds it.
+std::size_t activator(const Stability& s) { return s.jacobian[0] > 0 ? 0 : 1; }
+
+/// Inhibitor over activator at the threshold, in closed form: with u the activator and x = sqrt(D_v / D_u) the
+/// condition D_v f_u + D_u g_v = 2 sqrt(D_u D_v det J) reads f_u x^2 - 2 sqrt(det J) x + g_v = 0.
+double critical_ratio(const Stability& s) {
+  const std::vector<double>& J = s.jacobian;
+  const double fu = J[3 * activator(s)], gv = J[3 - 3 * activator(s)], determinant = J[0] * J[3] - J[1] * J[2];
   const double x = (std::sqrt(determinant) + std::sqrt(determinant - fu * gv)) / fu;
   return x * x;
+}
+
+/// The threshold of one diffusion; the two of a pair come in the order of the species.
+DiffusionThreshold threshold_of(const Stability& s, std::size_t species) {
+  const auto thresholds = diffusion_thresholds(s);
+  EXPECT_EQ(thresholds.size(), 2u);
+  EXPECT_EQ(thresholds[species].species, species);
+  return thresholds[species];
 }
 
 std::vector<std::string> numbered_names(std::size_t count) {
@@ -28,44 +40,43 @@ std::vector<std::string> numbered_names(std::size_t count) {
 
 TEST(TuringConditions, ThresholdsAreThoseOfTheClosedForm) {
   for (const double d : {3.0, 12.0, 40.0, 200.0}) {  // on both sides of the threshold
-    const Stability s = analysis_of("schnakenberg", {{"d", d}});
-    const double ratio = critical_ratio(s.jacobian[0], s.jacobian[1], s.jacobian[2], s.jacobian[3]);
-    const auto thresholds = diffusion_thresholds(s);
-    ASSERT_EQ(thresholds.size(), 2u);
-    EXPECT_FALSE(thresholds[0].grows_above);  // the activator must diffuse slowly
-    EXPECT_TRUE(thresholds[1].grows_above);
-    EXPECT_NEAR(thresholds[0].diffusion, d / ratio, 1e-6 * d / ratio);
-    EXPECT_NEAR(thresholds[1].diffusion, ratio, 1e-6 * ratio);
+    const Stability s = analysis_of("schnakenberg", {{"a", 0.1}, {"b", 0.9}, {"d", d}});
+    const double ratio = critical_ratio(s);
+    EXPECT_NEAR(ratio, 8.5676, 1e-4);
+    const auto slow = threshold_of(s, activator(s)), fast = threshold_of(s, 1 - activator(s));
+    EXPECT_FALSE(slow.grows_above);
+    EXPECT_TRUE(fast.grows_above);
+    EXPECT_NEAR(slow.diffusion, d / ratio, 1e-6 * d / ratio);
+    EXPECT_NEAR(fast.diffusion, ratio, 1e-6 * ratio);
   }
 }
 
 TEST(TuringConditions, BrusselatorThresholdOfTheLiterature) {  // Dv = Du A^2 / (sqrt(B) - 1)^2
   for (const double B : {2.0, 3.0, 4.5}) {
-    const auto thresholds = diffusion_thresholds(analysis_of("brusselator", {{"B", B}}));
-    ASSERT_EQ(thresholds.size(), 2u);
+    const Stability s = analysis_of("brusselator", {{"A", 2}, {"B", B}, {"Du", 1}, {"Dv", 8}});
     const double expected = 4 / std::pow(std::sqrt(B) - 1, 2);
-    EXPECT_NEAR(thresholds[1].diffusion, expected, 1e-6 * expected);
+    EXPECT_NEAR(threshold_of(s, 1 - activator(s)).diffusion, expected, 1e-6 * expected);
   }
 }
 
 TEST(TuringConditions, AllFourHoldExactlyWhenAPatternGrows) {
   for (const double d : {2.0, 5.0, 8.0, 8.5, 8.9, 9.3, 12.0, 40.0}) {
-    const Stability s = analysis_of("schnakenberg", {{"d", d}});
+    const Stability s = analysis_of("schnakenberg", {{"a", 0.1}, {"b", 0.9}, {"d", d}});
     bool all = true;
-    for (const Condition& c : turing_conditions(s, {"u", "v"})) all = all && c.holds;
+    for (const Condition& c : turing_conditions(s, {"p", "q"})) all = all && c.holds;
     EXPECT_EQ(all, regime_of(s) == Regime::turing) << d;
-    EXPECT_EQ(regime_of(s) == Regime::turing, d > diffusion_thresholds(s)[1].diffusion) << d;
+    EXPECT_EQ(regime_of(s) == Regime::turing, d > critical_ratio(s)) << d;
   }
 }
 
 TEST(TuringConditions, MarginalModelSitsOnItsThreshold) {
-  const Stability s = analysis_of("turing");
+  const Model model = compile(load_model("turing"));
+  const Stability s = analyse(model);
   EXPECT_EQ(regime_of(s), Regime::marginal);
-  const auto thresholds = diffusion_thresholds(s);
-  ASSERT_EQ(thresholds.size(), 2u);
-  EXPECT_NEAR(thresholds[0].diffusion, 0.125, 1e-6);
-  EXPECT_FALSE(turing_conditions(s, {"a", "b"}).back().holds);
-  const auto words = describe(thresholds, s, {"a", "b"});
+  std::vector<std::string> names = {model.species_name(0), model.species_name(1)};
+  EXPECT_NEAR(threshold_of(s, names[0] == "a" ? 0 : 1).diffusion, 0.125, 1e-6);
+  EXPECT_FALSE(turing_conditions(s, names).back().holds);
+  const auto words = describe(diffusion_thresholds(s), s, names);
   ASSERT_EQ(words.size(), 1u);
   EXPECT_EQ(words[0], "no pattern: D_a / D_b must be above 4, here it is 4");
 }
@@ -73,24 +84,36 @@ TEST(TuringConditions, MarginalModelSitsOnItsThreshold) {
 TEST(TuringConditions, Regimes) {
   EXPECT_EQ(regime_of(analysis_of("turing:production")), Regime::turing);
   EXPECT_EQ(regime_of(analysis_of("gray-scott")), Regime::quiet);
-  EXPECT_EQ(regime_of(analysis_of("brusselator", {{"B", 6}, {"Dv", 1}})), Regime::oscillation);
+  EXPECT_EQ(regime_of(analysis_of("brusselator", {{"A", 2}, {"B", 6}, {"Du", 1}, {"Dv", 1}})), Regime::oscillation);
   EXPECT_EQ(regime_of(analysis_of("schnakenberg", {{"a", 0.05}, {"b", 0.5}, {"d", 8}})), Regime::mixed);
   EXPECT_EQ(regime_of(analysis_of("turing", {{"Db", 0}})), Regime::ever_shorter);
 }
 
-/// Three species, the third a copy of the second that nobody reads: the threshold is that of two.
+/// Three species, the third fed by the second and read by nobody: the threshold is that of two.
 TEST(TuringConditions, ThirdSpeciesThatOnlyFollows) {
-  Stability three = analysis_of("schnakenberg", {{"d", 5}});
-  const std::vector<double> J = three.jacobian;
-  three.jacobian = {J[0], J[1], 0, J[2], J[3], 0, 0, 1, -2};
+  Stability two;
+  two.jacobian = {0.8, 1, -1.8, -1};
+  Stability three;
+  three.steady_states = {{1, 0.9, 0.45}};
+  three.jacobian = {0.8, 1, 0, -1.8, -1, 0, 0, 1, -2};
   three.diffusion = {1, 5, 3};
-  three.eigenvalues = {three.eigenvalues[0], three.eigenvalues[1], -2};
+  three.eigenvalues = {{-0.1, std::sqrt(0.99)}, {-0.1, -std::sqrt(0.99)}, -2};
   const auto thresholds = diffusion_thresholds(three);
   ASSERT_EQ(thresholds.size(), 2u);  // the follower's own diffusion changes nothing
-  const double ratio = critical_ratio(J[0], J[1], J[2], J[3]);
-  EXPECT_NEAR(thresholds[1].diffusion, ratio, 1e-6 * ratio);
+  EXPECT_NEAR(thresholds[1].diffusion, critical_ratio(two), 1e-6 * critical_ratio(two));
   EXPECT_EQ(describe(thresholds, three, numbered_names(3)).size(), 2u);
   EXPECT_FALSE(turing_conditions(three, numbered_names(3)).back().holds);
+}
+
+/// Swift-Hohenberg as w = lap(u), du/dt = r u - u - 2 w - lap(w): sigma = r - (1 - k^2)^2, so that r = 0 is marginal.
+TEST(TuringConditions, CrossDiffusionAndAlgebraicSpecies) {
+  for (const double r : {-0.1, 0.2}) {
+    const Stability s = analysis_of("swift-hohenberg", {{"r", r}});
+    EXPECT_EQ(regime_of(s), r > 0 ? Regime::turing : Regime::quiet);
+    const auto conditions = turing_conditions(s, {"w", "u"});
+    ASSERT_EQ(conditions.size(), 2u);  // the classical four are not about such pairs
+    EXPECT_EQ(conditions[1].holds, r > 0);
+  }
 }
 
 TEST(TuringConditions, NothingToSayWithoutAState) {
@@ -105,9 +128,11 @@ TEST(Stability, EveryStateHasItsOwnAnalysis) {
   ASSERT_EQ(all.steady_states.size(), 3u);
   for (const auto& state : all.steady_states) {
     const Stability one = analyse_at(model, state);
-    const double u = state[0], v = state[1], F = 0.04, k = 0.055;
-    const double expected[] = {-v * v - F, -2 * u * v, v * v, 2 * u * v - F - k};
-    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(one.jacobian[i], expected[i], 1e-12);
+    const std::size_t first = model.species_name(0) == "u" ? 0 : 1;
+    const double u = state[first], v = state[1 - first], F = 0.04, k = 0.055;
+    EXPECT_NEAR(one.jacobian[3 * first], -v * v - F, 1e-12);
+    EXPECT_NEAR(one.jacobian[3 - 3 * first], 2 * u * v - F - k, 1e-12);
+    EXPECT_NEAR(one.jacobian[1 + first], -2 * u * v, 1e-12);  // dR_u / dv
     ASSERT_EQ(one.steady_states.size(), 1u);
     EXPECT_EQ(one.steady_states[0], state);
   }
