@@ -47,8 +47,8 @@ TEST_P(GrownModel, PatternOfItsWavelengthOnASphere) {
 }
 
 TEST_P(GrownModel, PatternOnTheAnimal) {
-  static const TriangleMesh animal = builtin_shape("builtin:animal?n=600");
-  expect_pattern(finish_pattern(program(GetParam(), animal, 0.2 * bounding_diagonal(animal))));
+  static const TriangleMesh animal = builtin_shape("builtin:animal?n=1000");
+  expect_pattern(finish_pattern(program(GetParam(), animal, 0.15 * bounding_diagonal(animal))));
 }
 
 TEST_P(GrownModel, FastestWaveOfTheEarlyGrowth) {
