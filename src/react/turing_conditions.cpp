@@ -31,7 +31,10 @@ class Growth {
  public:
   explicit Growth(const Stability& stability) : stability_(stability) {
     double fastest = 0, slowest = 0;
-    for (const double d : stability.diffusion) {
+    std::vector<double> diffusions = stability.diffusion;
+    diffusions.insert(diffusions.end(), stability.cross.begin(), stability.cross.end());
+    for (double d : diffusions) {
+      d = std::abs(d);
       fastest = std::max(fastest, d);
       if (d > 0 && (slowest == 0 || d < slowest)) slowest = d;
     }
@@ -163,7 +166,7 @@ std::string describe(Regime regime) {
 
 std::vector<Condition> turing_conditions(const Stability& s, const std::vector<std::string>& species) {
   if (s.steady_states.empty()) return {};
-  if (species.size() == 2) return conditions_of_two(s, species);
+  if (species.size() == 2 && s.cross.empty()) return conditions_of_two(s, species);
   return {condition("largest real part at k = 0", s.eigenvalues.front().real(), false, "", 0),
           condition("largest real part over all k > 0", Growth(s).largest(), true, "", 0)};
 }
@@ -181,7 +184,7 @@ std::vector<DiffusionThreshold> diffusion_thresholds(const Stability& stability)
 std::vector<std::string> describe(const std::vector<DiffusionThreshold>& thresholds, const Stability& stability,
                                   const std::vector<std::string>& species) {
   std::vector<std::string> lines;
-  const bool pair = species.size() == 2 && thresholds.size() == 2;
+  const bool pair = species.size() == 2 && thresholds.size() == 2 && stability.cross.empty();
   for (const DiffusionThreshold& t : thresholds) {
     if (pair && !t.grows_above) continue;  // the other one is the same statement upside down
     const double other = pair ? stability.diffusion[1 - t.species] : 1;

@@ -35,7 +35,8 @@ struct Condition {
 };
 
 /// For two species the four classical inequalities (Murray 2003, Mathematical Biology II, eqs 2.31), with f_u the first
-/// entry of the Jacobian; for others the same statement over all eigenvalues and wave numbers. Empty without a state.
+/// entry of the Jacobian; for others, and coupled ones, the same statement over all eigenvalues and wave numbers. Empty
+/// without a state.
 std::vector<Condition> turing_conditions(const Stability& stability, const std::vector<std::string>& species);
 
 /// Where growth of waves begins or ends when one diffusion varies and the others stay.

@@ -29,13 +29,13 @@ std::vector<std::string> numbered_names(std::size_t count) {
 TEST(TuringConditions, ThresholdsAreThoseOfTheClosedForm) {
   for (const double d : {3.0, 12.0, 40.0, 200.0}) {  // on both sides of the threshold
     const Stability s = analysis_of("schnakenberg", {{"d", d}});
-    const double ratio = critical_ratio(s.jacobian[0], s.jacobian[1], s.jacobian[2], s.jacobian[3]);
+    const double ratio = critical_ratio(s.jacobian[3], s.jacobian[2], s.jacobian[1], s.jacobian[0]);  // v is first
     const auto thresholds = diffusion_thresholds(s);
     ASSERT_EQ(thresholds.size(), 2u);
-    EXPECT_FALSE(thresholds[0].grows_above);  // the activator must diffuse slowly
-    EXPECT_TRUE(thresholds[1].grows_above);
-    EXPECT_NEAR(thresholds[0].diffusion, d / ratio, 1e-6 * d / ratio);
-    EXPECT_NEAR(thresholds[1].diffusion, ratio, 1e-6 * ratio);
+    EXPECT_TRUE(thresholds[0].grows_above);
+    EXPECT_FALSE(thresholds[1].grows_above);  // the activator must diffuse slowly
+    EXPECT_NEAR(thresholds[0].diffusion, ratio, 1e-6 * ratio);
+    EXPECT_NEAR(thresholds[1].diffusion, d / ratio, 1e-6 * d / ratio);
   }
 }
 
@@ -44,7 +44,7 @@ TEST(TuringConditions, BrusselatorThresholdOfTheLiterature) {  // Dv = Du A^2 / 
     const auto thresholds = diffusion_thresholds(analysis_of("brusselator", {{"B", B}}));
     ASSERT_EQ(thresholds.size(), 2u);
     const double expected = 4 / std::pow(std::sqrt(B) - 1, 2);
-    EXPECT_NEAR(thresholds[1].diffusion, expected, 1e-6 * expected);
+    EXPECT_NEAR(thresholds[0].diffusion, expected, 1e-6 * expected);
   }
 }
 
@@ -54,7 +54,7 @@ TEST(TuringConditions, AllFourHoldExactlyWhenAPatternGrows) {
     bool all = true;
     for (const Condition& c : turing_conditions(s, {"u", "v"})) all = all && c.holds;
     EXPECT_EQ(all, regime_of(s) == Regime::turing) << d;
-    EXPECT_EQ(regime_of(s) == Regime::turing, d > diffusion_thresholds(s)[1].diffusion) << d;
+    EXPECT_EQ(regime_of(s) == Regime::turing, d > diffusion_thresholds(s)[0].diffusion) << d;
   }
 }
 
@@ -83,12 +83,12 @@ TEST(TuringConditions, ThirdSpeciesThatOnlyFollows) {
   Stability three = analysis_of("schnakenberg", {{"d", 5}});
   const std::vector<double> J = three.jacobian;
   three.jacobian = {J[0], J[1], 0, J[2], J[3], 0, 0, 1, -2};
-  three.diffusion = {1, 5, 3};
+  three.diffusion = {5, 1, 3};
   three.eigenvalues = {three.eigenvalues[0], three.eigenvalues[1], -2};
   const auto thresholds = diffusion_thresholds(three);
   ASSERT_EQ(thresholds.size(), 2u);  // the follower's own diffusion changes nothing
-  const double ratio = critical_ratio(J[0], J[1], J[2], J[3]);
-  EXPECT_NEAR(thresholds[1].diffusion, ratio, 1e-6 * ratio);
+  const double ratio = critical_ratio(J[3], J[2], J[1], J[0]);
+  EXPECT_NEAR(thresholds[0].diffusion, ratio, 1e-6 * ratio);
   EXPECT_EQ(describe(thresholds, three, numbered_names(3)).size(), 2u);
   EXPECT_FALSE(turing_conditions(three, numbered_names(3)).back().holds);
 }

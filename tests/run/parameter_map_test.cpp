@@ -28,7 +28,7 @@ TEST(ParameterMap, PatternExactlyAboveTheThreshold) {
   const ParameterMap map = run_map(schnakenberg_map());
   ASSERT_EQ(map.cells.size(), 4u);
   for (const MapCell& cell : map.cells) {
-    const double threshold = diffusion_thresholds(cell.linear)[1].diffusion;
+    const double threshold = diffusion_thresholds(cell.linear)[0].diffusion;
     EXPECT_EQ(cell.outcome, cell.x > threshold ? CellOutcome::pattern : CellOutcome::uniform) << cell.x;
     EXPECT_EQ(cell.outcome == CellOutcome::pattern, regime_of(cell.linear) == Regime::turing);
   }
