@@ -55,7 +55,8 @@ Analysis make_analysis(Model model) {
   if (!a.wavelength || a.states.empty()) return a;
   const double k2 = largest_k2_of_coarsest_mesh(*a.wavelength);
   for (const std::string& stepper : stepper_names())
-    a.limits.push_back({stepper, largest_stable_step(a.model, stepper, k2)});
+    if (stepper != "paper" || a.model.coupled().empty())
+      a.limits.push_back({stepper, largest_stable_step(a.model, stepper, k2)});
   return a;
 }
 
@@ -138,11 +139,16 @@ void print_jacobian(const Analysis& a) {
   for (const std::string& s : a.species) rows[0].push_back("d/d" + s);
   rows[0].push_back("DIFFUSION");
   const std::size_t n = a.species.size();
+  const std::vector<double>& cross = a.stability.cross;
+  if (!cross.empty())
+    for (const std::string& s : a.species) rows[0].push_back("OF lap(" + s + ")");
   for (std::size_t i = 0; i < n; ++i) {
     rows.push_back({"R_" + a.species[i]});
     for (std::size_t j = 0; j < n; ++j)  // + 0.0: no negative zeros
       rows.back().push_back(number(a.stability.jacobian[i * n + j] + 0.0));
     rows.back().push_back(number(a.stability.diffusion[i]));
+    for (std::size_t j = 0; j < n && !cross.empty(); ++j)
+      rows.back().push_back(i == j ? "" : number(cross[i * n + j] + 0.0));
   }
   std::fputs(table(rows, 2).c_str(), stdout);
 }

@@ -23,7 +23,8 @@ Vector shown_samples(const Run& run) { return run.operators().system().sampling-
 
 std::size_t fastest_species(const System& system) {
   const auto& species = system.species;
-  const auto fastest = std::ranges::max_element(species, {}, [](const Species& s) { return s.diffusion; });
+  const auto fastest =
+      std::ranges::max_element(species, {}, [](const Species& s) { return s.algebraic ? -1 : s.diffusion; });
   return static_cast<std::size_t>(fastest - species.begin());
 }
 

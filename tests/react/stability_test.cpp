@@ -71,14 +71,14 @@ TEST(Stability, SchnakenbergAgreesWithClosedForms) {
     const double a = 0.1, b = 0.9, u = a + b, v = b / (u * u);
     const Stability stability = analyse_model("schnakenberg", {{"d", d}});
     ASSERT_EQ(stability.steady_states.size(), 1u);
-    EXPECT_NEAR(stability.steady_states[0][0], u, 1e-12);
-    EXPECT_NEAR(stability.steady_states[0][1], v, 1e-12);
-    const std::vector<double> J = {-1 + 2 * u * v, u * u, -2 * u * v, -u * u};
+    EXPECT_NEAR(stability.steady_states[0][0], v, 1e-12);
+    EXPECT_NEAR(stability.steady_states[0][1], u, 1e-12);
+    const std::vector<double> J = {-u * u, -2 * u * v, u * u, -1 + 2 * u * v};
     for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(stability.jacobian[k], J[k], 1e-12);
     ASSERT_TRUE(stability.wavelength);
-    const double q = fastest_q(J, 1, d);
+    const double q = fastest_q(J, d, 1);
     EXPECT_NEAR(*stability.wavelength, 2 * pi / std::sqrt(q), 1e-5);
-    const double trace = J[0] + J[3] - (1 + d) * q, det = (J[0] - q) * (J[3] - d * q) - J[1] * J[2];
+    const double trace = J[0] + J[3] - (1 + d) * q, det = (J[0] - d * q) * (J[3] - q) - J[1] * J[2];
     EXPECT_NEAR(stability.growth, (trace + std::sqrt(trace * trace - 4 * det)) / 2, 1e-12);
   }
   // d_c where d J11 + J22 = 2 sqrt(d det J): growth 0 at k_c^2 = sqrt(det J / d).
@@ -191,6 +191,7 @@ TEST(Stability, AlgebraicSpeciesMayDiffuse) {
 
 TEST(Stability, FileWavelengthGoesFirst) {
   ModelSource source = load_model("schnakenberg");
+  source.wavelength.reset();
   EXPECT_NEAR(model_wavelength(compile(source)), 14.9, 0.1);
   source.wavelength = 11.5;
   EXPECT_EQ(model_wavelength(compile(source)), 11.5);

@@ -17,13 +17,13 @@ namespace {
 /// A run on the unit sphere whose model length unit is the world's, of a species u that starts as z.
 Run on_unit_sphere(const std::string& equation, const std::string& stepper, double step) {
   const auto path = std::filesystem::temp_directory_path() / "pelage_operators_test.toml";
-  std::ofstream(path) << "name = 'test'\ntitle = 't'\ncite = 'c'\nsummary = 's'\nwavelength = 0.8\n[species.u]\n"
+  std::ofstream(path) << "name = 'test'\ntitle = 't'\ncite = 'c'\nsummary = 's'\nwavelength = 1.3\n[species.u]\n"
                       << "initial = 'z'\n"
                       << equation << "\n";
   Recipe recipe;
   recipe.stage.model.value = path.string();
   recipe.stage.stepper.value = stepper;
-  recipe.stage.size = Given<Length>{{0.8, false}, {}};
+  recipe.stage.size = Given<Length>{{1.3, false}, {}};
   recipe.stage.step = step;
   recipe.stage.until = 1;
   recipe.stage.interpolate = true;
@@ -47,23 +47,23 @@ double decay(Run run) {
   return uz / zz;
 }
 
-class EveryStepper : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Steppers, EveryStepper, ::testing::ValuesIn(stepper_names()),
+class EveryStepperWithCoefficients : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Steppers, EveryStepperWithCoefficients, ::testing::ValuesIn(stepper_names()),
                          [](const auto& name) { return name.param; });
 
-TEST_P(EveryStepper, TakesAPrefactorThatVariesAndVanishes) {
+TEST_P(EveryStepperWithCoefficients, TakesAPrefactorThatVariesAndVanishes) {
   // lap z = -2 z on the unit sphere: with R = 2 C0 u - u/2 the solution is z exp(-t/2), whatever C0 is.
   const std::string equation = "C0 = '0.05*max(0, z + x)'\nC1 = '1'\nrate = '0.1*max(0, z + x)*u - 0.5*u'";
   EXPECT_NEAR(decay(on_unit_sphere(equation, GetParam(), 0.02)), std::exp(-0.5), 0.01);
 }
 
-TEST_P(EveryStepper, FollowsADiffusionThatChangesInTime) {
+TEST_P(EveryStepperWithCoefficients, FollowsADiffusionThatChangesInTime) {
   // u = z exp(-2 integral of D): D = t/4 gives exp(-1/4) at t = 1.
   const std::string equation = "diffusion = '0.25*t'\nrate = '0'";
   EXPECT_NEAR(decay(on_unit_sphere(equation, GetParam(), 0.01)), std::exp(-0.25), 0.01);
 }
 
-TEST_P(EveryStepper, FollowsADiffusionThatDependsOnTheField) {
+TEST_P(EveryStepperWithCoefficients, FollowsADiffusionThatDependsOnTheField) {
   // The same everywhere and always, although it is written with the field.
   const std::string equation = "diffusion = '0.1 + min(abs(u), 0)'\nrate = '0'";
   EXPECT_NEAR(decay(on_unit_sphere(equation, GetParam(), 0.02)), std::exp(-0.2), 0.01);

@@ -18,7 +18,7 @@ struct Pair {
   Pair(const Eigen::Matrix2d& diffusion, bool first_is_algebraic, Rates rates)
       : problem(make_problem(builtin_shape("builtin:sphere?n=162"), "loop", false)),
         sampling(vertex_sampling(problem.discretisation, problem.control, problem.mass)),
-        mass(sampled_mass(sampling, problem.mass.pattern)) {
+        mass(sampled_mass(sampling, sampling.weight, problem.mass.pattern)) {
     system.mass = &mass;
     system.sampling = &sampling;
     for (const char* name : {"first", "second"})
