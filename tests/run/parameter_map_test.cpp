@@ -30,12 +30,7 @@ TEST(ParameterMap, PatternExactlyAboveTheThreshold) {
   const ParameterMap map = run_map(schnakenberg_map());
   ASSERT_EQ(map.cells.size(), 4u);
   for (const MapCell& cell : map.cells) {
-<<<<<<< HEAD
     EXPECT_EQ(cell.outcome, cell.x > 8.5676 ? CellOutcome::pattern : CellOutcome::uniform) << cell.x;
-=======
-    const double threshold = diffusion_thresholds(cell.linear)[0].diffusion;
-    EXPECT_EQ(cell.outcome, cell.x > threshold ? CellOutcome::pattern : CellOutcome::uniform) << cell.x;
->>>>>>> coupled
     EXPECT_EQ(cell.outcome == CellOutcome::pattern, regime_of(cell.linear) == Regime::turing);
   }
 }
