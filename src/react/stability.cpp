@@ -1,11 +1,12 @@
 #include "react/stability.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "base/dense.h"
 #include "base/random.h"
 
 namespace pelage {
@@ -19,7 +20,7 @@ using Eigen::VectorXd;
 MatrixXd eliminated(const MatrixXd& a, const std::vector<Eigen::Index>& keep, const std::vector<Eigen::Index>& drop) {
   if (drop.empty()) return a;
   const MatrixXd inner = a(drop, drop), right = a(drop, keep);
-  return a(keep, keep) - a(keep, drop) * inner.partialPivLu().solve(right);
+  return a(keep, keep) - a(keep, drop) * solved(inner, right);
 }
 
 /// The equations at one point, everything that depends on the place being at its mean.
@@ -87,7 +88,7 @@ std::optional<VectorXd> steady_state_from(const PointSystem& system, VectorXd u)
   for (int iteration = 0; iteration < 60 && rate.allFinite(); ++iteration) {
     const MatrixXd jacobian = system.reduced_jacobian(u);
     if (!jacobian.allFinite()) return std::nullopt;
-    const VectorXd step = jacobian.completeOrthogonalDecomposition().solve(rate);
+    const VectorXd step = least_squares(jacobian, rate);
     const double size = 1e-3 + u.norm();
     if (step.norm() <= 1e-13 * size)
       return rate.norm() <= 1e-9 * jacobian.norm() * size ? std::optional(u) : std::nullopt;
@@ -162,9 +163,7 @@ MatrixXd evolution(const Stability& stability, double k2) {
 }
 
 std::vector<std::complex<double>> sorted_eigenvalues(const MatrixXd& matrix) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  if (!matrix.allFinite()) return std::vector<std::complex<double>>(static_cast<std::size_t>(matrix.rows()), nan);
-  const Eigen::VectorXcd values = Eigen::EigenSolver<MatrixXd>(matrix, false).eigenvalues();
+  const Eigen::VectorXcd values = eigenvalues(matrix);
   std::vector<std::complex<double>> list(values.begin(), values.end());
   std::ranges::sort(list,
                     [](auto a, auto b) { return a.real() != b.real() ? a.real() > b.real() : a.imag() > b.imag(); });

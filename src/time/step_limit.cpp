@@ -1,9 +1,10 @@
 #include "time/step_limit.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <limits>
 
+#include "base/dense.h"
 #include "react/kinetics.h"
 #include "react/place_values.h"
 
@@ -51,7 +52,7 @@ MatrixXd explicit_step(const Linearisation& l, double dt, const MatrixXd& decay)
   const MatrixXd one = MatrixXd::Identity(decay.rows(), decay.rows());
   // Rows of algebraic species: (1 + mu D) w' = (dR/du) u', all taken at the new time.
   const MatrixXd follow = one - (one - evolving) * (one + l.jacobian - decay);
-  return follow.inverse() * evolving * (one + dt * (l.jacobian - decay));
+  return solved(follow, evolving * (one + dt * (l.jacobian - decay)));
 }
 
 /// One step of the scheme for a wave with k^2 = mu, as a matrix on the amplitudes (of two steps for sbdf2).
@@ -62,16 +63,16 @@ MatrixXd amplification(const Linearisation& l, const std::string& stepper, doubl
   if (stepper == "explicit") return explicit_step(l, dt, decay);
   if (stepper == "paper") {
     const MatrixXd c2 = l.c2.asDiagonal();
-    return (one - dt * c2 + dt * decay).inverse() * (one + dt * (l.jacobian - c2));
+    return solved(one - dt * c2 + dt * decay, one + dt * (l.jacobian - c2));
   }
   const VectorXd algebraic = VectorXd::Ones(n) - l.evolving;
   const MatrixXd evolving = l.evolving.asDiagonal(), scale = (dt * l.evolving + algebraic).asDiagonal();
   // The Jacobian of an algebraic species is that of its formula minus itself, and only the formula is extrapolated.
   const MatrixXd rates = scale * (l.jacobian + MatrixXd(algebraic.asDiagonal()));
-  const MatrixXd inverse = (1.5 * evolving + MatrixXd(algebraic.asDiagonal()) + scale * decay).inverse();
+  const MatrixXd implicit = 1.5 * evolving + MatrixXd(algebraic.asDiagonal()) + scale * decay;
   MatrixXd g = MatrixXd::Zero(2 * n, 2 * n);
-  g.topLeftCorner(n, n) = inverse * (2 * evolving + 2 * rates);
-  g.topRightCorner(n, n) = -inverse * (0.5 * evolving + rates);
+  g.topLeftCorner(n, n) = solved(implicit, 2 * evolving + 2 * rates);
+  g.topRightCorner(n, n) = -solved(implicit, 0.5 * evolving + rates);
   g.bottomLeftCorner(n, n) = one;
   return g;
 }
@@ -83,7 +84,7 @@ bool stable(const Linearisation& l, const std::string& stepper, double dt, doubl
   for (int i = 0; i <= waves; ++i) {
     const double mu = i == 0 ? 0 : largest_k2 * std::pow(1e-6, 1 - static_cast<double>(i) / waves);
     const MatrixXd g = amplification(l, stepper, dt, mu);
-    if (!g.allFinite() || g.eigenvalues().cwiseAbs().maxCoeff() > allowed) return false;
+    if (!g.allFinite() || eigenvalues(g).cwiseAbs().maxCoeff() > allowed) return false;
   }
   return true;
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Same input, same bytes: for one and several threads, and for Debug and Release. Usage: SOURCE BINARY
-# The debug program is compared when it has been built (cmake --build --preset debug --target pelage_cli).
+# The debug program is compared when it has been built since the last change (cmake --build --preset debug --target pelage_cli).
 set -euo pipefail
 source=$1
 pelage=$2/bin/pelage
@@ -27,6 +27,11 @@ cases=("builtin:animal?n=3000 --size 0.08 --steps 40"
   "builtin:sphere?n=642 --size 0.3 --steps 10 --stepper paper"
   "builtin:knot?n=3000 --size 0.3 --steps 10 --stepper explicit --step 0.01 --keep-shape")
 debug=$source/build/debug/bin/pelage
+changed=$(cd "$source" && find src apps models recipes -newer "$debug" 2>/dev/null | head -n 1)
+if [ -x "$debug" ] && [ -n "$changed" ]; then
+  echo "the debug program is older than $changed: not compared"
+  debug=
+fi
 for i in "${!cases[@]}"; do
   read -ra arguments <<<"${cases[$i]}"
   grow "$pelage" one$i 1 "${arguments[@]}"
@@ -37,4 +42,4 @@ for i in "${!cases[@]}"; do
     same one$i debug$i "Release and Debug: ${cases[$i]}"
   fi
 done
-[ -x "$debug" ] && echo "threads and debug: the same bytes" || echo "threads: the same bytes; there is no debug build"
+[ -x "$debug" ] && echo "threads and debug: the same bytes" || echo "threads: the same bytes; no debug build was compared"
