@@ -53,7 +53,8 @@ Analysis make_analysis(Model model) {
   const auto& measured = a.model.source().wavelength;
   a.wavelength = measured ? measured : a.stability.wavelength;
   if (!a.wavelength || a.states.empty()) return a;
-  const double k2 = largest_k2_of_coarsest_mesh(*a.wavelength);
+  const double resolution = a.model.source().suggestions.resolution_or_default();
+  const double k2 = largest_k2_of_coarsest_mesh(*a.wavelength, resolution);
   for (const std::string& stepper : stepper_names())
     if (stepper != "paper" || a.model.coupled().empty())
       a.limits.push_back({stepper, largest_stable_step(a.model, stepper, k2)});
@@ -182,7 +183,8 @@ void print_limits(const Analysis& a) {
     std::puts("\nLargest stable steps: unknown, since no wavelength sets the mesh");
     return;
   }
-  std::printf("\nLargest stable steps, for 6 control vertices per wavelength of %s\n", number(*a.wavelength).c_str());
+  std::printf("\nLargest stable steps, for %s control vertices per wavelength of %s\n",
+              number(a.model.source().suggestions.resolution_or_default()).c_str(), number(*a.wavelength).c_str());
   std::vector<std::vector<std::string>> rows;
   for (const StepLimit& limit : a.limits)
     rows.push_back({limit.stepper, std::isfinite(limit.step) ? number(limit.step) : "any"});

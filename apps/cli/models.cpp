@@ -131,7 +131,8 @@ void print_analysis(const Entry& e) {
       {"wavelength used",
        text_or(e.wavelength, "none") + (e.model.source().wavelength ? " (measured on finished patterns)" : "")},
       {"time to a pattern", text_or(suggested.end, "not given")},
-      {"largest step", text_or(suggested.step, "not given")}};
+      {"largest step", text_or(suggested.step, "not given")},
+      {"resolution", number(suggested.resolution_or_default()) + " vertices per wavelength at least"}};
   std::fputs(table(rows, 2).c_str(), stdout);
 }
 
@@ -209,7 +210,8 @@ Json to_json(const Entry& e) {
           {"suggested",
            {{"step", value(source.suggestions.step)},
             {"end", value(source.suggestions.end)},
-            {"tolerance", value(source.suggestions.tolerance)}}}};
+            {"tolerance", value(source.suggestions.tolerance)},
+            {"resolution", source.suggestions.resolution_or_default()}}}};
 }
 
 struct ModelsOptions {

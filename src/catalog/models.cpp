@@ -58,8 +58,12 @@ ParameterSource parameter(const std::string& name, const Value& value) {
 Suggestions suggestions(const Value& table) {
   const Value* suggested = table.find("suggested");
   if (!suggested) return {};
+  const auto resolution = suggested->optional_number("resolution");
+  if (resolution && !(*resolution >= 4 && *resolution <= 64))
+    throw Error(Fault::usage, "a resolution is a number of vertices per wavelength from 4 to 64",
+                suggested->at("resolution").where());
   return {suggested->optional_number("step"), suggested->optional_number("end"),
-          suggested->optional_number("tolerance")};
+          suggested->optional_number("tolerance"), resolution};
 }
 
 std::optional<double> wavelength(const Value& table) {

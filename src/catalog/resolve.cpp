@@ -77,6 +77,7 @@ Program resolve(const Recipe& recipe, TriangleMesh shape) {
   const Suggestions& suggested = p.model.source().suggestions;
   p.step = stage.step;
   p.suggested_step = suggested.step.value_or(1);
+  p.resolution = suggested.resolution_or_default();
   p.until = stage.until.value_or(suggested.end.value_or(1000));
   p.steps = stage.steps;
   p.stationary = stage.stationary.value_or(suggested.tolerance.value_or(0));

@@ -286,6 +286,7 @@ ModelSource with_variant(ModelSource source, const std::string& variant) {
     if (suggested.step) source.suggestions.step = suggested.step;
     if (suggested.end) source.suggestions.end = suggested.end;
     if (suggested.tolerance) source.suggestions.tolerance = suggested.tolerance;
+    if (suggested.resolution) source.suggestions.resolution = suggested.resolution;
     if (!candidate.title.empty()) source.title = candidate.title;
     return source;
   }

@@ -64,6 +64,10 @@ struct Suggestions {
   std::optional<double> end;   ///< time after which the pattern is finished
   std::optional<double>
       tolerance;  ///< stationary when the pattern changes by less than this share of its amplitude per unit time
+  /// Control vertices per wavelength at least. With 6, Loop elements represent a sine to better than a percent;
+  /// patterns with fronts much thinner than their spacing ask for more.
+  std::optional<double> resolution;
+  double resolution_or_default() const { return resolution.value_or(6); }
 };
 
 /// A named set of parameter values under the same equations.

@@ -12,9 +12,6 @@ namespace pelage {
 
 namespace {
 
-/// At least so many control vertices per wavelength: Loop elements then represent a sine to better than a percent.
-constexpr double vertices_per_wavelength = 6;
-
 /// A finer mesh would need more than the memory of common machines: about 2 kB per Loop vertex.
 constexpr std::size_t max_triangles = 8'000'000;
 
@@ -39,7 +36,7 @@ Operators::Operators(const Program& program, const Progress& progress)
   mesh.control = program.shape.points;
   if (program.interpolate && loop)
     mesh.control = interpolating_control(loop_discretisation(mesh.topology), program.shape.points);
-  mesh = refine_to_edge(std::move(mesh), program.size / vertices_per_wavelength, loop, max_triangles);
+  mesh = refine_to_edge(std::move(mesh), program.size / program.resolution, loop, max_triangles);
   levels_ = mesh.levels;
   control_ = std::move(mesh.control);
   report(progress, "tabulating basis functions", 0.2);

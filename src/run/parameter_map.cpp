@@ -15,7 +15,6 @@ namespace {
 constexpr double wavelengths_per_side = 5;
 /// A cell whose pattern would be finer than this share of the longest wavelength is run at this resolution.
 constexpr double finest_share = 0.4;
-constexpr double vertices_per_wavelength = 6;  // as in operators.cpp
 constexpr std::int64_t steps_per_slice = 20;
 /// With deviations this small against the fields nothing is left that could grow again.
 constexpr double dead_contrast = 1e-7;
@@ -71,8 +70,8 @@ void join_rows(TriangleMesh& mesh, Index lower, Index upper, Index end) {
 }
 
 /// The unit square cut into equilateral triangles so small that no run refines them.
-TriangleMesh square(double wavelength) {
-  const int edges = static_cast<int>(std::ceil(vertices_per_wavelength / wavelength));
+TriangleMesh square(double wavelength, double resolution) {
+  const int edges = static_cast<int>(std::ceil(resolution / wavelength));
   const int rows = static_cast<int>(std::ceil(edges * 2 / std::sqrt(3.0)));
   TriangleMesh mesh;
   Index lower = 0;
@@ -97,6 +96,7 @@ Program cell_program(const MapRequest& request, const Model& model, const Triang
   p.size = wavelength / side;
   p.length_unit = 1 / side;
   p.suggested_step = suggested.step.value_or(1);
+  p.resolution = suggested.resolution_or_default();
   p.until = request.until.value_or(suggested.end.value_or(1000));
   p.stationary = suggested.tolerance.value_or(0);
   p.seed = request.seed;
@@ -160,7 +160,7 @@ ParameterMap run_map(const MapRequest& request, const Progress& progress) {
   map.cells = empty_cells(request, models);
   const Lengths lengths = pattern_lengths(request, map.cells);
   map.side = request.side.value_or(wavelengths_per_side * lengths.longest);
-  const TriangleMesh shape = square(lengths.shortest / map.side);
+  const TriangleMesh shape = square(lengths.shortest / map.side, request.model.suggestions.resolution_or_default());
   JobProgress jobs(progress, "running the cells", models.size());
   parallel_chunks(models.size(), [&](std::size_t c) {
     const auto report = [&](double fraction) { return jobs.report(c, fraction); };

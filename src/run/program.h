@@ -18,7 +18,8 @@ struct Program {
   double length_unit = 0;      ///< world length of one model length unit: size / the model's wavelength
   std::optional<double> step;  ///< fixed step; else the stepper's choice
   double suggested_step = 0;
-  double until = 0;  ///< model time
+  double resolution = 6;  ///< control vertices per wavelength, at least
+  double until = 0;       ///< model time
   std::optional<std::int64_t> steps;
   double stationary = 0;  ///< 0: never
   std::uint64_t seed = 1;

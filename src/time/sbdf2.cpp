@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "base/parallel.h"
@@ -27,6 +28,7 @@ class Sbdf2 final : public Stepper {
                      StepReport& report);
   void first_guess(const State& state, std::size_t species, double dt);
   void right_hand_side(const System& system, const Scheme& s, std::size_t species);
+  static double early_error(const System& system, const State& state, const std::vector<Vector>& next);
   static double error_estimate(const System& system, const State& state, const std::vector<Vector>& next, double dt);
 
   std::vector<StepMatrix> matrices_;
@@ -57,11 +59,26 @@ void Sbdf2::right_hand_side(const System& system, const Scheme& s, std::size_t i
   apply(system.sampling->transposed, combined_, rhs_);
 }
 
+/// The first two steps have no third derivative to go by. The local error of Euler's method, dt^2 u''/2, is about the
+/// square of the relative change dt u'/u of a field that grows or decays.
+double Sbdf2::early_error(const System& system, const State& state, const std::vector<Vector>& next) {
+  double worst = 0;
+  for (std::size_t i = 0; i < next.size(); ++i) {
+    const Vector& now = state.now[i];
+    const double size = dot(now, now);
+    if (size == 0 || system.species[i].algebraic) continue;
+    const Vector change = next[i] - now;
+    worst = std::max(worst, dot(change, change) / size);
+  }
+  return worst;
+}
+
 /// The local error of backward differences of second order, 2/9 dt^3 u''', and as much again twice for the extrapolated
 /// reaction; u''' from the third divided difference. Root mean square, relative to the size of the field. Coefficients
-/// that a clamp holds or has just let go are left out: their third derivative does not exist.
+/// that a clamp holds or has just let go have no third derivative; of those, only the part by which a step shoots
+/// through the clamp counts as error, without which reactions too fast for the step would go unseen.
 double Sbdf2::error_estimate(const System& system, const State& state, const std::vector<Vector>& next, double dt) {
-  if (state.past.size() < 2) return 0;
+  if (state.past.size() < 2) return early_error(system, state, next);
   const double t1 = -dt, t2 = t1 - state.past_steps[0], t3 = t2 - state.past_steps[1];
   // Divided difference [u(0), u(t1), u(t2), u(t3)] as weights of the four states.
   const double c0 = -1 / (t1 * t2 * t3), c1 = 1 / (t1 * (t1 - t2) * (t1 - t3)), c2 = 1 / (t2 * (t2 - t1) * (t2 - t3)),
@@ -77,14 +94,17 @@ double Sbdf2::error_estimate(const System& system, const State& state, const std
       Eigen::Array2d sum{0, 0};
       for (auto k = static_cast<Eigen::Index>(begin); k < static_cast<Eigen::Index>(end); ++k) {
         sum[1] += u0[k] * u0[k];
-        if (!(free(u0[k]) && free(u1[k]) && free(u2[k]) && free(u3[k]))) continue;
-        const double difference = c0 * u0[k] + c1 * u1[k] + c2 * u2[k] + c3 * u3[k];
-        sum[0] += difference * difference;
+        double error = 0;
+        if (free(u0[k]) && free(u1[k]) && free(u2[k]) && free(u3[k]))
+          error = scale * (c0 * u0[k] + c1 * u1[k] + c2 * u2[k] + c3 * u3[k]);
+        else if (free(u1[k]))
+          error = u0[k] - std::clamp(u0[k], s.lower, s.upper);
+        sum[0] += error * error;
       }
       return sum;
     };
     const auto sums = ordered_sum(static_cast<std::size_t>(u0.size()), Eigen::Array2d{0, 0}, partial);
-    if (sums[1] > 0) worst = std::max(worst, scale * std::sqrt(sums[0] / sums[1]));
+    if (sums[1] > 0) worst = std::max(worst, std::sqrt(sums[0] / sums[1]));
   }
   return worst;
 }

@@ -273,14 +273,15 @@ PYTHON
 # --- Ctrl-C ------------------------------------------------------------------------------------------------------
 mkdir interrupted
 long=(grow builtin:animal?n=4000 --size 0.03 --until 1e9 --stationary 0 -o interrupted/a.ply)
-# interrupt EXTRA ARGUMENTS: sends SIGINT once the growth has begun. (Jobs in the background ignore it unless told.)
+# interrupt WORDS ARGUMENTS: sends SIGINT a second after stderr says the words. (Jobs in the background ignore it unless
+# told.)
 interrupt() {
-  python3 - "$pelage" "${long[@]}" "$@" <<'PYTHON' >interrupt.log
+  python3 - "$1" "$pelage" "${@:2}" <<'PYTHON' >interrupt.log
 import signal, subprocess, sys, time
 signal.signal(signal.SIGINT, signal.default_int_handler)
-run = subprocess.Popen(sys.argv[1:], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+run = subprocess.Popen(sys.argv[2:], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 text = ""
-while "pelage: growing" not in text:
+while sys.argv[1] not in text:
     line = run.stderr.readline()
     if not line:
         break
@@ -293,12 +294,19 @@ print(run.wait(), f"{time.monotonic() - sent:.2f} s", text.splitlines()[-1])
 PYTHON
   cat interrupt.log
 }
-interrupt
+interrupt "pelage: growing" "${long[@]}"
 grep -q '^130 .*pelage: error: interrupted at [0-9]* steps' interrupt.log || fail "Ctrl-C: $(cat interrupt.log)"
 [ -z "$(ls interrupted)" ] || fail "Ctrl-C left files: $(ls interrupted)"
-interrupt --checkpoint interrupted/state
+interrupt "pelage: growing" "${long[@]}" --checkpoint interrupted/state
 grep -q '^130 .*--resume interrupted/state' interrupt.log || fail "Ctrl-C with a checkpoint: $(cat interrupt.log)"
 [ "$(ls interrupted)" = state ] || fail "Ctrl-C with a checkpoint left: $(ls interrupted)"
+
+rm interrupted/state
+interrupt "pelage: running the cells" map gray-scott --x F=0.01:0.07 --y k=0.045:0.07 --until 1e9 -o interrupted/map.png
+grep -q '^130 .*pelage: error: interrupted' interrupt.log || fail "Ctrl-C in map: $(cat interrupt.log)"
+interrupt "pelage: making the pictures" gallery turing --size 0.03 -o interrupted/gallery
+grep -q '^130 .*pelage: error: interrupted' interrupt.log || fail "Ctrl-C in gallery: $(cat interrupt.log)"
+[ -z "$(find interrupted -type f)" ] || fail "Ctrl-C left files: $(find interrupted -type f)"
 
 # --- fair, compare ---------------------------------------------------------------------------------------------
 succeed fair builtin:cube?n=600 -o faired.ply,faired.obj --json
