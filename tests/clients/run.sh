@@ -22,7 +22,7 @@ failures=0
 report() {
   local name=$1 file=$2 said
   shift 2
-  if said=$(NODE_MODULES="$modules/node_modules" timeout 300 "$@" "$file" 2>&1) && grep -q '^ok ' <<<"$said"; then
+  if said=$(NODE_MODULES="$modules/node_modules" timeout 300 bash -c '"$@"' _ "$@" "$file" 2>&1) && grep -q '^ok ' <<<"$said"; then
     printf '%-14s %-24s %s\n' "$name" "$(basename "$file")" "$(grep '^ok ' <<<"$said" | tail -n 1)"
   else
     printf '%-14s %-24s FAILED\n%s\n' "$name" "$(basename "$file")" "$(tail -n 20 <<<"$said")"
@@ -32,7 +32,10 @@ report() {
 validator() { report gltf-validator "$1" node "$here/check_gltf.mjs"; }
 three() { report three.js "$1" node "$here/check_three.mjs"; }
 blender() { report Blender "$1" blender -b --factory-startup --python-exit-code 3 -P "$here/check_blender.py" --; }
-paraview() { report ParaView "$1" xvfb-run -a pvpython --force-offscreen-rendering "$here/check_paraview.py"; }
+paraview() { report ParaView "$1" with_display pvpython --force-offscreen-rendering "$here/check_paraview.py"; }
+# On a busy machine the virtual display is not always there in time: the client aborts before it reads the file.
+with_display() { xvfb-run -a "$@" || { [ $? -eq 134 ] && sleep 2 && xvfb-run -a "$@"; }; }
+export -f with_display
 
 for file in "$@"; do
   [ -f "$file" ] || { echo "$file: no such file" >&2; failures=$((failures + 1)); continue; }
