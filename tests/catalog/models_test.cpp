@@ -10,6 +10,7 @@
 #include "catalog/embedded.h"
 #include "react/kinetics.h"
 #include "react/stability.h"
+#include "support/model_names.h"
 
 namespace pelage {
 namespace {
@@ -117,20 +118,7 @@ TEST_P(ShippedModel, ParametersRoundTrip) {
   }
 }
 
-std::vector<std::string> all_names() {
-  std::vector<std::string> names;
-  for (const ModelEntry& entry : model_list()) names.push_back(entry.name);
-  return names;
-}
-
-std::string test_name(const testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, ShippedModel, testing::ValuesIn(all_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(All, ShippedModel, testing::ValuesIn(all_model_names()), model_test_name);
 
 TEST(Models, NamesAreThoseOfTheFiles) {
   std::set<std::string> names;

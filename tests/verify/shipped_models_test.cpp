@@ -2,7 +2,6 @@
 // measured.
 #include <gtest/gtest.h>
 
-#include <cctype>
 #include <cmath>
 #include <fstream>
 
@@ -10,6 +9,7 @@
 #include "catalog/resolve.h"
 #include "react/stability.h"
 #include "shape/generators.h"
+#include "support/model_names.h"
 #include "verify/early_growth.h"
 #include "verify/finished_pattern.h"
 
@@ -66,20 +66,7 @@ TEST_P(GrownModel, FastestWaveOfTheEarlyGrowth) {
   EXPECT_NEAR(growth.wavelength, *stability.wavelength, 0.05 * *stability.wavelength);
 }
 
-std::vector<std::string> all_names() {
-  std::vector<std::string> names;
-  for (const ModelEntry& entry : model_list()) names.push_back(entry.name);
-  return names;
-}
-
-std::string test_name(const testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, GrownModel, testing::ValuesIn(all_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(All, GrownModel, testing::ValuesIn(all_model_names()), model_test_name);
 
 /// A system that is not shipped: Degn and Harrison 1969 (respiration of bacteria), written as CONTRIBUTING says.
 constexpr const char* degn_harrison = R"toml(
