@@ -15,6 +15,7 @@
 #include "io/png_writer.h"
 #include "io/write_mesh.h"
 #include "look/dress.h"
+#include "panels.h"
 #include "progress_bar.h"
 #include "text.h"
 
@@ -112,16 +113,24 @@ void write_outputs(const GrowOptions& options, const TriangleMesh& coat, const P
     interruptible("before " + path + " was written", [&] { write_mesh(coat, path); });
     report.file(path);
   }
-  if (options.picture.empty()) return;
+}
+
+void write_picture(const std::string& path, const Progress& progress, GrowReport& report,
+                   const std::function<Image(const Progress&)>& draw) {
+  if (path.empty()) return;
+  const std::string task = "drawing " + path;
+  const auto drawing = [&] {
+    return draw([&](std::string_view, double fraction) { return progress(task, fraction); });
+  };
+  write_png(interruptible("before " + path + " was written", drawing), path);
+  report.file(path);
+}
+
+PictureOptions picture_options(const GrowOptions& options) {
   PictureOptions picture;
   picture.width = picture.height = options.picture_size;
   picture.up = options.up;
-  const std::string task = "drawing " + options.picture;
-  const auto draw = [&] {
-    return render(coat, picture, [&](std::string_view, double fraction) { return progress(task, fraction); });
-  };
-  write_png(interruptible("before " + options.picture + " was written", draw), options.picture);
-  report.file(options.picture);
+  return picture;
 }
 
 GrowReport::Form form_of(const GrowOptions& options) {
@@ -132,6 +141,8 @@ GrowReport::Form form_of(const GrowOptions& options) {
 void grow(const GrowOptions& options) {
   Recipe recipe = make_recipe(options);
   check_outputs(options, recipe.shape);
+  if (!options.panels.empty() && !recipe.motion.fair)
+    throw Error(Fault::usage, "--panels shows what --fair does; give it too");
   check_names(recipe);
   catch_interrupts();
   const ThreadLimit threads(options.threads.value_or(0));
@@ -154,11 +165,16 @@ void grow(const GrowOptions& options) {
   const Stopwatch growth;
   grow_to_the_end(run, options, progress);
   report.growth(run, growth.seconds());
+  if (run.surface()) report.surface(*run.surface());
   if (!options.checkpoint.empty()) report.file(options.checkpoint);
 
   progress("colouring", 0);
   const TriangleMesh coat = dress(run.fields(), recipe.look);
   write_outputs(options, coat, progress, report);
+  const PictureOptions picture = picture_options(options);
+  write_picture(options.picture, progress, report, [&](const Progress& p) { return render(coat, picture, p); });
+  write_picture(options.panels, progress, report,
+                [&](const Progress& p) { return four_panels(recipe, run.program().shape, coat, picture, p); });
   report.end(total.seconds());
 }
 
@@ -177,6 +193,7 @@ Command add_grow(CLI::App& parent) {
       "  pelage grow cow.obj --size 0.04 -o cow.glb,cow.ply --picture cow.png\n"
       "  pelage grow horse.off --model gray-scott:spots --ramp leopard --keep-shape -o horse.ply\n"
       "  pelage grow part.stl --size 4mm --up z --set s=0.06 -o part.vtp\n"
+      "  pelage grow scan.ply --fair -o coat.glb --panels panels.png\n"
       "  pelage grow --recipe demo -o cub.glb");
   return {app, [options] { grow(*options); }};
 }

@@ -6,6 +6,7 @@
 #include "base/suggest.h"
 #include "catalog/models.h"
 #include "catalog/resolve.h"
+#include "fair/fair.h"
 #include "io/atomic_file.h"
 #include "io/png_writer.h"
 #include "io/read_shape.h"
@@ -88,6 +89,26 @@ void add_time_options(CLI::App& app, GrowOptions& o) {
       ->group(group);
 }
 
+void add_motion_options(CLI::App& app, GrowOptions& o) {
+  const std::string group = "Moving surface";
+  app.add_flag("--fair{guided}", o.fair,
+               "Take the noise off the shape while the pattern grows; --fair=paper for another method" +
+                   choices(fair_methods()))
+      ->group(group);
+  app.add_option("--growth", o.growth, "Rate at which all lengths of the surface grow, per model time (default: 0)")
+      ->type_name("X")
+      ->group(group);
+  app.add_option("--motion", o.motion,
+                 "What rides along with the surface: texture, the values (default), or physical, the amounts, which "
+                 "are diluted where the area grows")
+      ->type_name("MODE")
+      ->group(group);
+  app.add_option("--every", o.every, "Move the surface every so many time steps (default: 10)")
+      ->type_name("N")
+      ->check(whole_number(1, most_steps))
+      ->group(group);
+}
+
 void add_look_options(CLI::App& app, GrowOptions& o) {
   const std::string group = "Colours";
   app.add_option("--species", o.species, "Which species is shown (default: the model's last)")
@@ -113,6 +134,11 @@ void add_output_options(CLI::App& app, GrowOptions& o) {
       ->allow_extra_args(false)
       ->group(group);
   app.add_option("--picture", o.picture, "File for a picture: .png")->type_name("FILE")->group(group);
+  app.add_option("--panels", o.panels,
+                 "With --fair: file for four pictures side by side, .png: the noisy shape, the faired one, the pattern "
+                 "on the noisy shape, and the coat")
+      ->type_name("FILE")
+      ->group(group);
   app.add_option("--picture-size", o.picture_size, "Width and height of the picture, pixels (default: 1024)")
       ->type_name("N")
       ->check(whole_number(1, largest_picture))
@@ -161,6 +187,13 @@ void apply(const GrowOptions& o, Stage& stage) {
   stage.interpolate |= o.interpolate;
 }
 
+void apply(const GrowOptions& o, Motion& motion) {
+  if (!o.fair.empty()) motion.fair = {o.fair, {}};
+  override(o.growth, motion.growth);
+  override(o.motion, motion.mode);
+  override(o.every, motion.every);
+}
+
 void apply(const GrowOptions& o, Look& look) {
   if (o.species) look.species = {*o.species, {}};
   override(o.ramp, look.ramp);
@@ -184,6 +217,7 @@ void add_options(CLI::App& app, GrowOptions& options) {
       ->type_name("");
   add_pattern_options(app, options);
   add_time_options(app, options);
+  add_motion_options(app, options);
   add_look_options(app, options);
   add_output_options(app, options);
 }
@@ -195,18 +229,20 @@ Recipe make_recipe(const GrowOptions& options) {
   if (recipe.shape.empty())
     throw Error(Fault::usage, "no shape to grow on; name a file or a built-in one, for example builtin:animal");
   apply(options, recipe.stage);
+  apply(options, recipe.motion);
   apply(options, recipe.look);
   return recipe;
 }
 
 void check_outputs(const GrowOptions& options, const std::string& shape) {
-  if (options.outputs.empty() && options.picture.empty())
+  if (options.outputs.empty() && options.picture.empty() && options.panels.empty())
     throw Error(Fault::usage, "nothing to write; give -o FILE, --picture FILE or both");
   for (const std::string& output : options.outputs) {
     check_mesh_path(output);
     refuse_input_as_output(output, shape);
   }
   if (!options.picture.empty()) check_picture_path(options.picture);
+  if (!options.panels.empty()) check_picture_path(options.panels);
   if (options.checkpoint.empty()) return;
   check_folder(options.checkpoint);
   refuse_input_as_output(options.checkpoint, shape);

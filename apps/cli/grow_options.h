@@ -16,14 +16,16 @@ struct GrowOptions {
   std::string shape;
   std::optional<std::string> recipe, model, size, method, stepper, species, ramp;
   std::vector<std::string> settings;  ///< "PARAM=VALUE"
-  std::optional<double> step, until, stationary;
-  std::optional<std::int64_t> steps;
+  std::optional<double> step, until, stationary, growth;
+  std::optional<std::int64_t> steps, every;
   std::optional<std::uint64_t> seed;
   std::optional<int> detail, threads;
+  std::string fair;  ///< method of fairing, or empty
+  std::optional<std::string> motion;
   bool interpolate = false, invert = false, keep_shape = false;
 
   std::vector<std::string> outputs;
-  std::string picture, checkpoint, resume;
+  std::string picture, panels, checkpoint, resume;
   int picture_size = 1024;
   UpAxis up = UpAxis::y;
   bool json = false, quiet = false;

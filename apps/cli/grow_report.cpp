@@ -96,6 +96,17 @@ void GrowReport::pattern(const std::string& model, const Run& run) {
   json_["vertices_per_wavelength"] = density;
 }
 
+void GrowReport::surface(const MovingSurface& surface) {
+  const Fairing* fairing = surface.fairing();
+  if (!fairing) return;
+  const FairReport& r = fairing->report();
+  line("surface", counted(static_cast<std::size_t>(r.steps), "step") + " of fairing; noise " + brief(r.noise) +
+                      " mean edges, moved " + brief(r.moved));
+  if (!fairing->done()) warning("the growth ended before the noise was off the surface; lower --every or grow longer");
+  json_["fairing"] = {
+      {"noise_edges", r.noise}, {"steps", r.steps}, {"moved_edges", r.moved}, {"done", fairing->done()}};
+}
+
 void GrowReport::growth(const Run& run, double seconds) {
   const RunSummary& s = run.summary();
   line("growth", counted(static_cast<std::size_t>(s.steps), "step") + " of " + run.program().stepper + " to time " +

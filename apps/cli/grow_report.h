@@ -18,6 +18,7 @@ class GrowReport {
   void shape(const std::string& name, const ShapeFile& file);
   void warning(const std::string& text);
   void pattern(const std::string& model, const Run& run);
+  void surface(const MovingSurface& surface);
   void growth(const Run& run, double seconds);
   void file(const std::string& path);
   void end(double seconds);

@@ -48,6 +48,15 @@ struct Stage {
   bool interpolate = false;  ///< the limit surface passes through the vertices of the shape
 };
 
+/// How the surface moves while the pattern grows on it. By default it does not.
+struct Motion {
+  std::optional<Given<std::string>> fair;  ///< the shape is faired by this method; see fair_methods()
+  double growth = 0;                       ///< rate at which all lengths grow [1 / model time], exponentially
+  Given<std::string> mode{"texture", {}};  ///< "texture": values ride along; "physical": amounts do, so that values
+                                           ///< are diluted where the area grows
+  std::int64_t every = 10;                 ///< the surface and its matrices are renewed every so many time steps
+};
+
 /// How fields become colours and geometry.
 struct Look {
   std::optional<Given<std::string>> species;  ///< which one is shown; default: the last
@@ -62,6 +71,7 @@ struct Recipe {
   std::string summary;
   std::string shape;  ///< used when the command names none
   Stage stage;
+  Motion motion;
   Look look;
 };
 

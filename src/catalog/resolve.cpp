@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/number.h"
 #include "base/suggest.h"
 #include "catalog/embedded.h"
 #include "catalog/models.h"
@@ -50,6 +51,26 @@ double world_size(const Stage& stage, double diagonal) {
   return length.relative ? length.value * diagonal : length.value;
 }
 
+/// The mesh is made for the largest size of the surface; beyond this there are other mistakes.
+constexpr double most_growth = 10;
+
+SurfaceMotion resolve_motion(const Motion& motion, double until) {
+  require_known(motion.mode, "mode of motion", {"texture", "physical"});
+  SurfaceMotion m;
+  if (motion.fair) {
+    require_known(*motion.fair, "method of fairing", fair_methods());
+    m.fair.emplace().method = motion.fair->value;
+  }
+  if (!(std::abs(motion.growth * until) <= std::log(most_growth)))
+    throw Error(Fault::usage, "with a growth of " + number(motion.growth) + " until time " + number(until) +
+                                  " the surface changes its size by more than " + number(most_growth) +
+                                  " times; lower one of them");
+  m.growth = motion.growth;
+  m.physical = motion.mode.value == "physical";
+  m.every = motion.every;
+  return m;
+}
+
 constexpr std::string_view recipe_folder = "recipes/", extension = ".toml";
 
 }  // namespace
@@ -83,6 +104,7 @@ Program resolve(const Recipe& recipe, TriangleMesh shape) {
   p.stationary = stage.stationary.value_or(suggested.tolerance.value_or(0));
   p.seed = stage.seed;
   p.interpolate = stage.interpolate;
+  p.motion = resolve_motion(recipe.motion, p.until);
   p.shape = std::move(shape);
   return p;
 }

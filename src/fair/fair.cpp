@@ -4,6 +4,7 @@
 
 #include "base/number.h"
 #include "base/suggest.h"
+#include "fair/boundary.h"
 #include "fair/faces.h"
 #include "fair/flow.h"
 #include "fair/noise.h"
@@ -56,21 +57,6 @@ double moved_along_normals(const FairState& state, const std::vector<Point>& fro
   return count ? std::sqrt(sum / static_cast<double>(count)) : 0;
 }
 
-/// Steps until enough has moved.
-void take_steps(FairState& state, FairMethod& method, const FairOptions& options, FairReport& report,
-                const Progress& progress) {
-  const std::vector<Point> from = state.points;
-  const int most = options.steps.value_or(report.noise > 0 ? method.most_steps() : 0);
-  while (report.steps < most) {
-    if (progress && !progress("fairing", static_cast<double>(report.steps) / most))
-      throw Error(Fault::cancelled, "cancelled");
-    method.step(state, report);
-    ++report.steps;
-    report.moved = moved_along_normals(state, from) / report.mean_edge;
-    if (!options.steps && report.moved >= noise_share * report.noise) break;
-  }
-}
-
 std::vector<char> boundary_vertices(const Topology& topology) {
   std::vector<char> on_boundary(topology.vertex_count);
   for (Index v = 0; v < topology.vertex_count; ++v) on_boundary[v] = topology.on_boundary(v);
@@ -90,22 +76,78 @@ const std::vector<std::string>& fair_methods() {
   return names;
 }
 
-Faired fair(const TriangleMesh& mesh, const FairOptions& options, const Progress& progress) {
+/// Everything that the steps need, in one place: the state refers to the connectivity.
+struct Fairing::Parts {
+  Parts(const TriangleMesh& mesh, bool slide)
+      : topology(make_topology(mesh.points.size(), mesh.triangles)),
+        from(mesh.points),
+        state{topology, mesh.points, boundary_vertices(topology)},
+        closed(topology) {
+    if (!slide) return;
+    rails.emplace(topology, mesh.points);
+    state.fixed = rails->corner();
+  }
+
+  Topology topology;
+  std::vector<Point> from;
+  FairState state;
+  ClosedParts closed;
+  std::optional<BoundaryRails> rails;
+  std::unique_ptr<FairMethod> method;
+};
+
+Fairing::Fairing(const TriangleMesh& mesh, const FairOptions& options) : options_(options) {
   check(options);
-  const Topology topology = make_topology(mesh.points.size(), mesh.triangles);
-  FairState state{topology, mesh.points, boundary_vertices(topology)};
-  Faired result{mesh, {}};
-  FairReport& report = result.report;
-  report.mean_edge = mean_edge(topology, mesh.points);
-  if (!(report.mean_edge > 0)) return result;
-  report.noise = options.noise ? *options.noise : estimate_noise(topology, mesh.points) / report.mean_edge;
-  const auto method = make_method(state, options, report);
-  take_steps(state, *method, options, report, progress);
-  const ClosedParts parts(topology);
-  report.volume_before = parts.volume(mesh.points);
-  parts.restore_volumes(mesh.points, state.points);
-  report.volume_after = parts.volume(state.points);
-  result.mesh.points = std::move(state.points);
+  parts_ = std::make_unique<Parts>(mesh, options.slide);
+  report_.mean_edge = mean_edge(parts_->topology, mesh.points);
+  if (!(report_.mean_edge > 0)) return;
+  report_.noise = options.noise ? *options.noise : estimate_noise(parts_->topology, mesh.points) / report_.mean_edge;
+  parts_->method = make_method(parts_->state, options, report_);
+  most_steps_ = options.steps.value_or(report_.noise > 0 ? parts_->method->most_steps() : 0);
+  report_.volume_before = parts_->closed.volume(mesh.points);
+}
+
+Fairing::~Fairing() = default;
+
+bool Fairing::done() const {
+  if (report_.steps >= most_steps_) return true;
+  return !options_.steps && report_.steps > 0 && report_.moved >= noise_share * report_.noise;
+}
+
+void Fairing::step() {
+  parts_->method->step(parts_->state, report_);
+  if (parts_->rails) parts_->rails->put_back(parts_->state.points);
+  ++report_.steps;
+  measure();
+}
+
+void Fairing::measure() { report_.moved = moved_along_normals(parts_->state, parts_->from) / report_.mean_edge; }
+
+std::vector<Point> Fairing::points() const {
+  std::vector<Point> points = parts_->state.points;
+  if (report_.steps > 0) parts_->closed.restore_volumes(parts_->from, points);
+  return points;
+}
+
+const std::vector<Point>& Fairing::state() const { return parts_->state.points; }
+
+void Fairing::restore(std::vector<Point> state, int steps) {
+  parts_->state.points = std::move(state);
+  report_.steps = steps;
+  if (steps > 0) measure();
+}
+
+Faired fair(const TriangleMesh& mesh, const FairOptions& options, const Progress& progress) {
+  Fairing fairing(mesh, options);
+  while (!fairing.done()) {
+    if (progress && !progress("fairing", static_cast<double>(fairing.report().steps) / fairing.most_steps()))
+      throw Error(Fault::cancelled, "cancelled");
+    fairing.step();
+  }
+  Faired result{mesh, fairing.report()};
+  result.mesh.points = fairing.points();
+  result.report.volume_after =
+      ClosedParts(make_topology(mesh.points.size(), mesh.triangles)).volume(result.mesh.points);
   if (result.mesh.find("normal"))
     result.mesh.set({"normal", 3, Domain::vertex, flattened(vertex_normals(mesh.triangles, result.mesh.points))});
   return result;

@@ -1,6 +1,7 @@
 #pragma once
 // Fairing: noise is taken off a mesh while its shape and its edges stay.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct FairOptions {
   std::optional<double> sigma = {};  ///< paper: width of the Gaussian before curvatures are taken, in mean edges
   std::optional<double> angle = {};  ///< paper: bend per edge beyond which diffusion across is throttled, degrees
   double mu = 0;                     ///< paper: 0 adapts the tensor to the local size of triangles, 1 the time step
+  bool slide = false;                ///< vertices on boundaries move along these, but for corners; else they stay
 };
 
 struct FairReport {
@@ -42,8 +44,40 @@ struct Faired {
 /// 1995).
 const std::vector<std::string>& fair_methods();
 
-/// Vertices on boundaries stay where they are; closed parts keep their volume. Error(Fault::usage) for an unknown
-/// method or options out of range; Error(Fault::input) for meshes that are not manifold; Error(Fault::cancelled).
+/// Vertices on boundaries stay where they are, or slide; closed parts keep their volume. Error(Fault::usage) for an
+/// unknown method or options out of range; Error(Fault::input) for meshes that are not manifold;
+/// Error(Fault::cancelled).
 Faired fair(const TriangleMesh& mesh, const FairOptions& options = {}, const Progress& progress = {});
+
+/// The same step by step, for a run that does something else in between.
+class Fairing {
+ public:
+  /// Looks at the noise and chooses; nothing moves. Errors as fair().
+  explicit Fairing(const TriangleMesh& mesh, const FairOptions& options = {});
+  ~Fairing();
+
+  bool done() const;
+  /// One step of the method.
+  void step();
+  /// The vertices as they are now, their closed parts with the volume that they had; world units.
+  std::vector<Point> points() const;
+  const FairReport& report() const { return report_; }
+  /// Steps after which it ends in any case.
+  int most_steps() const { return most_steps_; }
+
+  /// The vertices between two steps, without their volume restored; with report().steps all that changes.
+  const std::vector<Point>& state() const;
+  /// Goes on from there. As many points as the mesh has vertices.
+  void restore(std::vector<Point> state, int steps);
+
+ private:
+  struct Parts;
+  void measure();
+
+  FairOptions options_;
+  FairReport report_;
+  int most_steps_ = 0;
+  std::unique_ptr<Parts> parts_;
+};
 
 }  // namespace pelage

@@ -50,6 +50,20 @@ Stage read_stage(const Value& table) {
   return s;
 }
 
+Motion read_motion(const Value& table) {
+  Motion m;
+  if (const Value* v = table.find("fair")) {
+    if (v->kind() != Value::Kind::boolean)
+      m.fair = given(*v);
+    else if (v->boolean())
+      m.fair = {"guided", v->where()};
+  }
+  m.growth = table.number_or("growth", 0);
+  read_text(table, "mode", m.mode);
+  if (const Value* v = table.find("every")) m.every = whole_number(*v, 1);
+  return m;
+}
+
 Look read_look(const Value& table) {
   Look look;
   if (const Value* v = table.find("species")) look.species = given(*v);
@@ -92,6 +106,7 @@ Recipe parse_recipe(const std::string& text, const std::string& file) {
   recipe.summary = document.string_or("summary", "");
   recipe.shape = document.string_or("shape", "");
   recipe.stage = read_stage(document.at("stage"));
+  if (const Value* motion = document.find("motion")) recipe.motion = read_motion(*motion);
   if (const Value* look = document.find("look")) recipe.look = read_look(*look);
   document.require_all_read();
   return recipe;

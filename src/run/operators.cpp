@@ -25,39 +25,73 @@ std::vector<const double*> pointers(const std::vector<Vector>& fields) {
   return result;
 }
 
+RefinedMesh coarse_mesh(const Program& program, const std::vector<Point>& points) {
+  RefinedMesh mesh{make_topology(points.size(), program.shape.triangles), points, 0};
+  if (program.interpolate && program.method == "loop")
+    mesh.control = interpolating_control(loop_discretisation(mesh.topology), points);
+  return mesh;
+}
+
+/// So fine that it does when the surface is at its largest.
+double wanted_edge(const Program& program) {
+  const double largest = std::exp(std::max(0.0, program.motion.growth * program.until));
+  return program.size / program.resolution / largest;
+}
+
 }  // namespace
 
 Operators::Operators(const Program& program, const Progress& progress)
     : model_(program.model), length_unit_(program.length_unit) {
-  const bool loop = program.method == "loop";
   report(progress, "refining", 0);
-  RefinedMesh mesh;
-  mesh.topology = make_topology(program.shape.points.size(), program.shape.triangles);
-  mesh.control = program.shape.points;
-  if (program.interpolate && loop)
-    mesh.control = interpolating_control(loop_discretisation(mesh.topology), program.shape.points);
-  mesh = refine_to_edge(std::move(mesh), program.size / program.resolution, loop, max_triangles);
+  RefinedMesh mesh = refine_to_edge(coarse_mesh(program, program.shape.points), wanted_edge(program),
+                                    program.method == "loop", max_triangles);
   levels_ = mesh.levels;
   control_ = std::move(mesh.control);
   report(progress, "tabulating basis functions", 0.2);
   discretisation_ = std::make_unique<Discretisation>(make_discretisation(program.method, std::move(mesh.topology)));
   report(progress, "assembling", 0.4);
   assembler_ = std::make_unique<Assembler>(*discretisation_);
+  fill_matrices(program);
+  report(progress, "sampling", 0.8);
+  evaluate_places(program);
+  build_species();
+}
+
+void Operators::place(const Program& program, const std::vector<Point>& points) {
+  RefinedMesh mesh = coarse_mesh(program, points);
+  for (int level = 0; level < levels_; ++level) mesh = refine_once(mesh, program.method == "loop");
+  control_ = std::move(mesh.control);
+  fill_matrices(program);
+  evaluate_places(program);
+  for (std::size_t i = 0; i < variable_.size(); ++i)
+    if (variable_[i]) fill_variable(i, nullptr);
+}
+
+void Operators::fill_matrices(const Program& program) {
   mass_ = assembler_->mass(control_);
   stiffness_ = assembler_->stiffness(control_);
-  report(progress, "sampling", 0.8);
   if (program.stepper == "paper") {  // the scheme of the paper integrates its reaction matrices by quadrature
     sampling_ = quadrature_sampling(*discretisation_, control_);
-  } else {
-    sampling_ = vertex_sampling(*discretisation_, control_, mass_);
-    mass_ = sampled_mass(sampling_, sampling_.weight, mass_.pattern);
+    return;
   }
+  sampling_ = vertex_sampling(*discretisation_, control_, mass_);
+  mass_ = sampled_mass(sampling_, sampling_.weight, mass_.pattern);
+}
+
+/// What the formulas read from the places of the samples, and of the quadrature points where a diffusion varies.
+void Operators::evaluate_places(const Program& program) {
   const VertexAttributes attributes = refined(program.shape, attributes_read(model_, program.shape), levels_);
-  const PlaceFields fields = program.stepper == "paper"
-                                 ? quadrature_fields(model_, *discretisation_, control_, attributes)
-                                 : vertex_fields(model_, *discretisation_, control_, attributes);
-  kinetics_ = std::make_unique<Kinetics>(model_, fields.places(length_unit_), program.seed);
-  build_species(program, attributes);
+  const auto at_quadrature = [&] { return quadrature_fields(model_, *discretisation_, control_, attributes); };
+  const auto kinetics = [&](const PlaceFields& fields) {
+    return std::make_unique<Kinetics>(model_, fields.places(length_unit_), program.seed);
+  };
+  kinetics_ = kinetics(program.stepper == "paper" ? at_quadrature()
+                                                  : vertex_fields(model_, *discretisation_, control_, attributes));
+  bool varies = false;
+  for (std::size_t i = 0; i < model_.species_count(); ++i) varies = varies || !model_.diffusion_constant(i);
+  if (!varies) return;
+  quadrature_kinetics_ = kinetics(at_quadrature());
+  quadrature_values_ = quadrature_values(*discretisation_);
 }
 
 /// The variable coefficients of one species at its initial state, or at `state`.
@@ -78,7 +112,7 @@ bool Operators::diffusion_varies_in_time(std::size_t i) const {
   return (model_.diffusion_dependence(i) & ~static_cast<unsigned>(on_place)) != 0;
 }
 
-void Operators::build_species(const Program& program, const VertexAttributes& attributes) {
+void Operators::build_species() {
   const double scale = length_unit_ * length_unit_;  // model length^2 to world length^2
   system_.mass = &mass_;
   system_.sampling = &sampling_;
@@ -95,11 +129,6 @@ void Operators::build_species(const Program& program, const VertexAttributes& at
     if (constant) s.diffusion *= *constant;
     system_.species.push_back(s);
     if (constant) continue;
-    if (!quadrature_kinetics_) {
-      const PlaceFields fields = quadrature_fields(model_, *discretisation_, control_, attributes);
-      quadrature_kinetics_ = std::make_unique<Kinetics>(model_, fields.places(length_unit_), program.seed);
-      quadrature_values_ = quadrature_values(*discretisation_);
-    }
     variable_[i] = std::make_unique<Variable>();
     fill_variable(i, nullptr);
   }

@@ -29,6 +29,10 @@ class Operators {
   /// An upper estimate of the largest k^2 that the mesh carries: of K x = k^2 M x, by power iteration [1 / world^2].
   double largest_k2() const;
 
+  /// Renews everything that depends on where the surface is, for other vertices of the program's shape. Whoever keeps
+  /// matrices made of those of the system has to drop them.
+  void place(const Program& program, const std::vector<Point>& points);
+
   /// Coefficients of the initial state.
   std::vector<Vector> initial() const;
 
@@ -36,7 +40,9 @@ class Operators {
   void update(const State& state);
 
  private:
-  void build_species(const Program& program, const VertexAttributes& attributes);
+  void fill_matrices(const Program& program);
+  void evaluate_places(const Program& program);
+  void build_species();
   void couple_species(double scale);
   struct Coefficients {
     std::vector<Vector> c0, c1;

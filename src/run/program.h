@@ -3,11 +3,22 @@
 
 #include <optional>
 
+#include "fair/fair.h"
 #include "pelage/recipe.h"
 #include "pelage/triangle_mesh.h"
 #include "react/model.h"
 
 namespace pelage {
+
+/// How the vertices of the shape move during a run.
+struct SurfaceMotion {
+  std::optional<FairOptions> fair;
+  double growth = 0;       ///< of all lengths about the middle of the bounding box [1 / model time]
+  bool physical = false;   ///< amounts ride along with the surface, not values
+  std::int64_t every = 1;  ///< time steps between two moves
+
+  bool any() const { return fair || growth != 0; }
+};
 
 struct Program {
   TriangleMesh shape;  ///< repaired control mesh
@@ -24,6 +35,7 @@ struct Program {
   double stationary = 0;  ///< 0: never
   std::uint64_t seed = 1;
   bool interpolate = false;
+  SurfaceMotion motion;
 };
 
 /// Length of the diagonal of the bounding box.

@@ -7,8 +7,10 @@
 #include <numbers>
 
 #include "base/number.h"
+#include "linalg/conjugate_gradient.h"
 #include "pelage/error.h"
 #include "time/step_limit.h"
+#include "time/step_support.h"
 
 namespace pelage {
 
@@ -31,6 +33,9 @@ bool adaptive(const Program& p) { return !p.step && p.stepper == "sbdf2"; }
 /// The nonlinear terms need some room below the limit of the linear analysis.
 constexpr double share_of_stable_step = 0.8;
 
+/// Amounts are kept to this share whenever the surface moves, far below the error of a step.
+constexpr double amount_tolerance = 1e-12;
+
 double find_stable_step(const Program& p, const Operators& operators) {
   if (p.stepper == "sbdf2") return std::numeric_limits<double>::infinity();
   return largest_stable_step(p.model, p.stepper, operators.largest_k2() * p.length_unit * p.length_unit);
@@ -50,6 +55,7 @@ Run::Run(Program program, const Progress& progress)
       stepper_(make_stepper(program_.stepper)),
       stable_step_(find_stable_step(program_, *operators_)),
       step_(first_step(program_, stable_step_)) {
+  if (program_.motion.any()) surface_ = std::make_unique<MovingSurface>(program_.shape, program_.motion);
   state_.now = operators_->initial();
   summary_.step = step_;
   check_stop();
@@ -76,6 +82,7 @@ double Run::next_step() const {
 const RunSummary& Run::advance(std::int64_t steps) {
   int halvings = 0;
   for (std::int64_t k = 0; k < steps && !done();) {
+    follow_surface(state_.time + next_step());
     operators_->update(state_);
     StepRequest request{.dt = next_step(), .solver_tolerance = solver_tolerance};
     if (adaptive(program_)) request.largest_error = step_tolerance;
@@ -93,6 +100,43 @@ const RunSummary& Run::advance(std::int64_t steps) {
     }
   }
   return summary_;
+}
+
+/// Brings surface, matrices and state to the place where the next step, which ends at `time`, finds them. The values of
+/// the earlier states ride along as those of the present one, so that the stepper sees a surface at rest:
+///   alpha M^(n+1) u^(n+1) + dt D K^(n+1) u^(n+1) = ... M^(n+1) v^n + ... M^(n+1) v^(n-1)
+/// with v = u for textures; with M^(n+1) v^n = M^n u^n it is the evolving surface finite element method (Dziuk, Elliott
+/// 2007; Barreira, Elliott, Madzvamuse 2011) for d/dt (M u) + D K u = F.
+void Run::follow_surface(double time) {
+  if (!surface_ || !surface_->advance(state_.step, time)) return;
+  const SparseMatrix mass_before = *operators_->system().mass;
+  operators_->place(program_, surface_->points());
+  if (program_.motion.physical) keep_amounts(mass_before);
+  stepper_ = make_stepper(program_.stepper);  // the matrices that it kept are of the old surface
+  if (state_.past_rates.empty()) return;
+  std::vector<Vector> samples;
+  sample_fields(operators_->system(), state_.past[0], samples);
+  evaluate_rates(operators_->system(), samples, state_.time - state_.past_steps[0], state_.past_rates);
+}
+
+/// Algebraic species follow from the others and have no amount of their own to keep.
+void Run::keep_amounts(const SparseMatrix& mass_before) {
+  const System& system = operators_->system();
+  const auto keep = [&](std::vector<Vector>& fields) {
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      if (!system.species[i].algebraic)
+        fields[i] = solve_spd(*system.mass, mass_before * fields[i], {.tolerance = amount_tolerance});
+  };
+  keep(state_.now);
+  for (std::vector<Vector>& fields : state_.past) keep(fields);
+}
+
+std::vector<double> Run::amounts() const {
+  const SparseMatrix& mass = *operators_->system().mass;
+  const Vector integral = mass * Vector::Ones(mass.rows());
+  std::vector<double> amounts;
+  for (const Vector& u : state_.now) amounts.push_back(dot(integral, u));
+  return amounts;
 }
 
 void Run::accept(const StepReport& report) {
@@ -114,6 +158,8 @@ void Run::check_stop() {
     summary_.status = RunStatus::steps_reached;
   else if (state_.time >= program_.until)
     summary_.status = RunStatus::time_reached;
+  else if (surface_ && surface_->moving())
+    summary_.status = RunStatus::running;
   else if (state_.step > 0 && program_.stationary > 0 && summary_.change < program_.stationary)
     summary_.status = RunStatus::stationary;
 }
@@ -129,6 +175,7 @@ void Run::fail(const StepReport& report) {
 CoatFields Run::fields() const {
   CoatFields f;
   f.shape = program_.shape;
+  if (surface_) f.shape.points = surface_->points();
   f.levels = operators_->levels();
   f.loop = program_.method == "loop";
   f.control = operators_->control();
@@ -171,6 +218,21 @@ class Writer {
  private:
   std::string& out_;
 };
+
+/// Points as a field of their coordinates, one after the other.
+Vector flattened(const std::vector<Point>& points) {
+  Vector flat(static_cast<Eigen::Index>(3 * points.size()));
+  for (Eigen::Index i = 0; i < flat.size(); ++i)
+    flat[i] = points[static_cast<std::size_t>(i / 3)][static_cast<std::size_t>(i % 3)];
+  return flat;
+}
+
+std::vector<Point> as_points(const Vector& flat) {
+  std::vector<Point> points(static_cast<std::size_t>(flat.size() / 3));
+  for (Eigen::Index i = 0; i < flat.size(); ++i)
+    points[static_cast<std::size_t>(i / 3)][static_cast<std::size_t>(i % 3)] = flat[i];
+  return points;
+}
 
 class Reader {
  public:
@@ -226,6 +288,11 @@ std::string Run::checkpoint() const {
     w.fields(state_.past[k]);
   }
   w.fields(state_.past_rates);
+  if (!surface_) return out;
+  const MovingSurface::State surface = surface_->state();
+  w.number(surface.scale);
+  w.number(static_cast<std::uint64_t>(surface.fair_steps));
+  w.fields({flattened(surface.faired)});
   return out;
 }
 
@@ -245,14 +312,28 @@ void Run::restore(const std::string& bytes) {
     state.past.push_back(r.fields());
   }
   state.past_rates = r.fields();
+  MovingSurface::State surface;
+  bool fits = true;
+  if (surface_) {
+    surface.scale = r.number<double>();
+    surface.fair_steps = static_cast<int>(r.number<std::uint64_t>());
+    const std::vector<Vector> faired = r.fields();
+    fits = has_sizes(faired, 1, 3 * std::ssize(surface_->state().faired)) && surface.scale > 0;
+    if (fits) surface.faired = as_points(faired[0]);
+  }
   const System& system = operators_->system();
   const auto unknowns = system.mass->rows();
-  bool fits = r.at_end() && has_sizes(state.now, state_.now.size(), unknowns);
+  fits = fits && r.at_end() && has_sizes(state.now, state_.now.size(), unknowns);
   for (const auto& fields : state.past) fits = fits && has_sizes(fields, state_.now.size(), unknowns);
   if (program_.stepper == "sbdf2" && !state.past.empty())
     fits = fits && has_sizes(state.past_rates, state_.now.size(), system.sampling->count());
   if (!fits) throw Error(Fault::input, "the checkpoint belongs to another shape, size or model");
   state_ = std::move(state);
+  if (surface_) {
+    surface_->restore(std::move(surface));
+    operators_->place(program_, surface_->points());
+    stepper_ = make_stepper(program_.stepper);
+  }
   step_ = step;
   summary_ = {};
   summary_.time = state_.time;

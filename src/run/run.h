@@ -6,6 +6,7 @@
 
 #include "base/progress.h"
 #include "look/dress.h"
+#include "run/moving_surface.h"
 #include "run/operators.h"
 #include "run/program.h"
 #include "time/stepper.h"
@@ -54,6 +55,10 @@ class Run {
   const Program& program() const { return program_; }
   const Operators& operators() const { return *operators_; }
   const std::vector<Vector>& coefficients() const { return state_.now; }
+  /// Null when the surface stays where it is.
+  const MovingSurface* surface() const { return surface_.get(); }
+  /// Area integrals of the species [values times world units^2].
+  std::vector<double> amounts() const;
   /// A copy of the fields, to be dressed.
   CoatFields fields() const;
 
@@ -65,12 +70,15 @@ class Run {
 
  private:
   double next_step() const;
+  void follow_surface(double time);
+  void keep_amounts(const SparseMatrix& mass_before);
   void accept(const StepReport& report);
   void fail(const StepReport& report);
   void check_stop();
 
   Program program_;
   std::unique_ptr<Operators> operators_;
+  std::unique_ptr<MovingSurface> surface_;
   std::unique_ptr<Stepper> stepper_;
   State state_;
   double stable_step_ = 0;

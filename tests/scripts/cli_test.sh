@@ -308,6 +308,18 @@ interrupt "pelage: making the pictures" gallery turing --size 0.03 -o interrupte
 grep -q '^130 .*pelage: error: interrupted' interrupt.log || fail "Ctrl-C in gallery: $(cat interrupt.log)"
 [ -z "$(find interrupted -type f)" ] || fail "Ctrl-C left files: $(find interrupted -type f)"
 
+# --- a surface that moves while the coat grows -----------------------------------------------------------------
+moving=(grow $sphere --size 0.5 --steps 4 --every 2 --detail 0)
+succeed "${moving[@]}" --fair --panels panels.png --picture-size 64 -o moved.ply --json
+json 'd["fairing"]["steps"] <= 2 and [f["path"] for f in d["files"]] == ["moved.ply", "panels.png"]'
+python3 -c "import struct; d=open('panels.png','rb').read(); assert struct.unpack('>I', d[16:20]) == (4 * 64 + 3 * 8,)" ||
+  fail "panels.png does not hold four pictures"
+succeed "${moving[@]}" --fair=paper --growth 1e-4 --motion physical --quiet -o moved.ply
+expect 2 'unknown method of fairing "papr"; did you mean "paper"' "${moving[@]}" --fair=papr -o moved.ply
+expect 2 'unknown mode of motion "phisical"; did you mean "physical"' "${moving[@]}" --motion phisical -o moved.ply
+expect 2 'with a growth of 1 until time 2000 .*10 times; lower one of them' "${moving[@]}" --growth 1 -o moved.ply
+expect 2 '--panels shows what --fair does; give it too' "${moving[@]}" --panels panels.png
+
 # --- fair, compare ---------------------------------------------------------------------------------------------
 succeed fair builtin:cube?n=600 -o faired.ply,faired.obj --json
 is_json stdout

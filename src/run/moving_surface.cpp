@@ -1,0 +1,59 @@
+#include "run/moving_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pelage {
+
+namespace {
+
+Point middle_of_box(const std::vector<Point>& points) {
+  Point low = points[0], high = low, middle;
+  for (const Point& p : points)
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  for (std::size_t k = 0; k < 3; ++k) middle[k] = (low[k] + high[k]) / 2;
+  return middle;
+}
+
+}  // namespace
+
+MovingSurface::MovingSurface(const TriangleMesh& shape, const SurfaceMotion& motion)
+    : motion_(motion), middle_(middle_of_box(shape.points)) {
+  if (motion.fair)
+    fairing_ = std::make_unique<Fairing>(shape, *motion.fair);
+  else
+    still_ = shape.points;
+}
+
+bool MovingSurface::advance(std::int64_t steps, double time) {
+  if (steps % motion_.every != 0) return false;
+  const bool fair_now = fairing_ && !fairing_->done() && fairing_->report().steps * motion_.every <= steps;
+  if (fair_now) fairing_->step();
+  const double scale = std::exp(motion_.growth * time);
+  const bool grown = scale != scale_;
+  scale_ = scale;
+  return fair_now || grown;
+}
+
+std::vector<Point> MovingSurface::points() const {
+  std::vector<Point> points = fairing_ ? fairing_->points() : still_;
+  if (scale_ == 1) return points;
+  for (Point& p : points)
+    for (std::size_t k = 0; k < 3; ++k) p[k] = middle_[k] + scale_ * (p[k] - middle_[k]);
+  return points;
+}
+
+MovingSurface::State MovingSurface::state() const {
+  if (!fairing_) return {{}, 0, scale_};
+  return {fairing_->state(), fairing_->report().steps, scale_};
+}
+
+void MovingSurface::restore(State state) {
+  if (fairing_) fairing_->restore(std::move(state.faired), state.fair_steps);
+  scale_ = state.scale;
+}
+
+}  // namespace pelage

@@ -1,0 +1,186 @@
+#include "run/moving_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "catalog/models.h"
+#include "catalog/resolve.h"
+#include "fair/noisy.h"
+#include "pelage/error.h"
+#include "run/run.h"
+
+namespace pelage {
+namespace {
+
+using testing::with_noise;
+using Growth = Run;  // in a test, Run is a function of its own
+
+Recipe moving_recipe(double size = 0.5) {
+  Recipe recipe;
+  recipe.stage.size = Given<Length>{{size, false}, {}};
+  return recipe;
+}
+
+Recipe fairing_recipe(std::int64_t every) {
+  Recipe recipe = moving_recipe();
+  recipe.motion.fair = {"guided", {}};
+  recipe.motion.every = every;
+  return recipe;
+}
+
+TriangleMesh noisy_sphere(const std::string& n = "362") {
+  return with_noise(builtin_shape("builtin:sphere?n=" + n), 0.2);
+}
+
+TEST(MovingSurface, EndsWhereFairingAloneEnds) {
+  const TriangleMesh noisy = noisy_sphere();
+  Growth run(resolve(fairing_recipe(2), noisy));
+  while (run.surface()->moving() && !run.done()) run.advance(1);
+  EXPECT_EQ(run.surface()->points(), fair(noisy).mesh.points);
+  EXPECT_EQ(run.fields().shape.points, fair(noisy).mesh.points);
+}
+
+TEST(MovingSurface, SlicesAndCheckpointsKeepTheBits) {
+  for (const char* mode : {"texture", "physical"})
+    for (const char* stepper : {"sbdf2", "paper", "explicit"}) {
+      Recipe recipe = fairing_recipe(3);
+      recipe.motion.mode.value = mode;
+      recipe.motion.growth = 1e-4;
+      recipe.stage.stepper.value = stepper;
+      recipe.stage.size = Given<Length>{{1, false}, {}};
+      if (recipe.stage.stepper.value != "sbdf2") recipe.stage.step = 0.02;
+      const auto start = [&] { return Growth(resolve(recipe, noisy_sphere("162"))); };
+      Growth whole = start(), sliced = start(), resumed = start();
+      whole.advance(25);
+      sliced.advance(10);
+      resumed.restore(sliced.checkpoint());
+      sliced.advance(15);
+      resumed.advance(15);
+      EXPECT_EQ(whole.checkpoint(), sliced.checkpoint()) << mode << ' ' << stepper;
+      EXPECT_EQ(whole.checkpoint(), resumed.checkpoint()) << mode << ' ' << stepper;
+      EXPECT_EQ(whole.amounts(), resumed.amounts()) << mode << ' ' << stepper;
+    }
+}
+
+TEST(MovingSurface, CheckpointsOfRunsAtRestAreRefused) {
+  Growth moving(resolve(fairing_recipe(3), noisy_sphere())), resting(resolve(moving_recipe(), noisy_sphere()));
+  moving.advance(2);
+  resting.advance(2);
+  EXPECT_THROW(moving.restore(resting.checkpoint()), Error);
+  EXPECT_THROW(resting.restore(moving.checkpoint()), Error);
+}
+
+/// A source and a decay, du/dt = a - b u, on a sphere of radius exp(g t): the amount m obeys m' = a A(t) - b m with
+/// A = 4 pi exp(2 g t) when amounts ride along, and the value obeys u' = a - b u when values do.
+constexpr double a = 0.3, b = 0.2, g = 0.05, until = 8, u0 = 2;
+
+Program growing_sphere(const std::string& mode, double step) {
+  Recipe recipe = moving_recipe(2);
+  recipe.motion.growth = g;
+  recipe.motion.mode.value = mode;
+  recipe.motion.every = 1;
+  recipe.stage.step = step;
+  recipe.stage.until = until;
+  Program program = resolve(recipe, builtin_shape("builtin:sphere?n=642"));
+  program.model =
+      compile(parse_model("name = \"source\"\ntitle = \"source and decay\"\ncite = \"none\"\n"
+                          "[species.u]\nrate = \"0.3 - 0.2*u\"\ndiffusion = \"0.01\"\ninitial = \"2\"\n",
+                          "source.toml"));
+  program.stationary = 0;
+  return program;
+}
+
+double area(const Growth& run) {
+  const SparseMatrix& mass = *run.operators().system().mass;
+  return (mass * Vector::Ones(mass.rows())).sum();
+}
+
+double amount_error(double step) {
+  Growth run(growing_sphere("physical", step));
+  const double initial_area = area(run);
+  run.advance(100000);
+  const double c = a / (b + 2 * g);
+  const double theory = initial_area * (c * std::exp(2 * g * until) + (u0 - c) * std::exp(-b * until));
+  EXPECT_NEAR(area(run) / initial_area, std::exp(2 * g * until), 1e-9);
+  return std::abs(run.amounts()[0] / theory - 1);
+}
+
+TEST(MovingSurface, AmountsOnAGrowingSphereFollowTheory) {
+  const double coarse = amount_error(0.2), fine = amount_error(0.1);
+  EXPECT_LT(coarse, 1e-3);
+  EXPECT_GT(coarse / fine, 3.4);  // second order in time, as on a surface at rest
+}
+
+TEST(MovingSurface, ValuesOfATextureDoNotKnowOfGrowth) {
+  Growth run(growing_sphere("texture", 0.1));
+  run.advance(100000);
+  const double theory = a / b + (u0 - a / b) * std::exp(-b * until);
+  EXPECT_NEAR(run.coefficients()[0].minCoeff(), theory, 1e-3);
+  EXPECT_NEAR(run.coefficients()[0].maxCoeff(), theory, 1e-3);
+}
+
+TEST(MovingSurface, MovingAloneKeepsEveryAmount) {
+  Recipe recipe = fairing_recipe(1);
+  recipe.motion.mode.value = "physical";
+  Program program = resolve(recipe, noisy_sphere("642"));
+  program.model =
+      compile(parse_model("name = \"still\"\ntitle = \"diffusion alone\"\ncite = \"none\"\n"
+                          "[species.u]\nrate = \"0\"\ndiffusion = \"0.01\"\ninitial = \"1 + noise(1)\"\n",
+                          "still.toml"));
+  Growth run(std::move(program));
+  const double before = run.amounts()[0];
+  run.advance(20);
+  EXPECT_FALSE(run.surface()->moving());
+  EXPECT_NEAR(run.amounts()[0] / before, 1, 1e-6);
+}
+
+double grown_wavelength(Program program) {
+  Growth run(std::move(program));
+  run.advance(100000);
+  EXPECT_NE(run.summary().status, RunStatus::failed) << run.summary().message;
+  const Operators& o = run.operators();
+  return measured_wavelength(*o.system().mass, o.stiffness(), run.coefficients()[0]);
+}
+
+TEST(MovingSurface, ThePatternOfANoisyShapeHasTheSpacingOfTheCleanOne) {
+  const TriangleMesh clean = builtin_shape("builtin:animal?n=1000");
+  const double size = 0.2 * bounding_diagonal(clean);
+  Recipe recipe = moving_recipe(size);
+  const double wanted = grown_wavelength(resolve(recipe, clean));
+  recipe.motion.fair = {"guided", {}};
+  EXPECT_NEAR(grown_wavelength(resolve(recipe, with_noise(clean, 0.2))) / wanted, 1, 0.05) << wanted / size;
+}
+
+TEST(MovingSurface, TheMeshIsMadeForTheLargestSize) {
+  Recipe recipe = moving_recipe(2);
+  recipe.stage.until = 1000;
+  const Program still = resolve(recipe, noisy_sphere());
+  recipe.motion.growth = 2e-3;
+  const Program growing = resolve(recipe, noisy_sphere());
+  EXPECT_GT(Operators(growing, {}).levels(), Operators(still, {}).levels());
+}
+
+TEST(MovingSurface, ImpossibleMotionsAreRefused) {
+  Recipe recipe = moving_recipe();
+  recipe.motion.growth = 1;
+  EXPECT_THROW(resolve(recipe, noisy_sphere()), Error);
+  recipe.motion.growth = 0;
+  recipe.motion.mode.value = "phisical";
+  EXPECT_THROW(resolve(recipe, noisy_sphere()), Error);
+  recipe = fairing_recipe(1);
+  recipe.motion.fair->value = "gided";
+  EXPECT_THROW(resolve(recipe, noisy_sphere()), Error);
+}
+
+TEST(MovingSurface, RecipesNameTheMotion) {
+  const std::string stage = "[stage]\nmodel = \"turing\"\n[motion]\n";
+  EXPECT_EQ(parse_recipe(stage + "fair = true", "r.toml").motion.fair->value, "guided");
+  EXPECT_EQ(parse_recipe(stage + "fair = \"paper\"\nevery = 5", "r.toml").motion.every, 5);
+  EXPECT_FALSE(parse_recipe(stage + "fair = false\nmode = \"physical\"", "r.toml").motion.fair);
+  EXPECT_THROW(parse_recipe(stage + "every = 0", "r.toml"), Error);
+  EXPECT_THROW(parse_recipe(stage + "grow = 0.1", "r.toml"), Error);
+}
+
+}  // namespace
+}  // namespace pelage
