@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "command.h"
+#include "fair/attribute.h"
 #include "interrupt.h"
 #include "io/read_shape.h"
 #include "io/write_mesh.h"
@@ -20,6 +21,8 @@ struct FairCommand {
   std::string shape;
   std::vector<std::string> outputs;
   FairOptions options;
+  std::string attribute;  ///< to be smoothed instead of the mesh, or empty
+  std::optional<std::string> method;
   bool json = false, quiet = false;
 };
 
@@ -36,7 +39,8 @@ std::string settings(const FairReport& r) {
 void print_report(const FairCommand& command, const FairReport& r) {
   const bool given = command.options.noise.has_value();
   std::printf("noise     %s (%s)\n", edges(r.noise).c_str(), given ? "as given" : "estimated");
-  std::printf("faired    %d steps of %s%s\n", r.steps, command.options.method.c_str(), settings(r).c_str());
+  std::printf("faired    %d steps of %s%s\n", r.steps, command.method.value_or(command.options.method).c_str(),
+              settings(r).c_str());
   std::printf("moved     %s along the normals\n", edges(r.moved).c_str());
   if (r.volume_before != 0)
     std::printf("volume    %s before, %s after\n", number(r.volume_before).c_str(), number(r.volume_after).c_str());
@@ -46,7 +50,7 @@ void print_report(const FairCommand& command, const FairReport& r) {
 Json to_json(const FairCommand& command, const FairReport& r) {
   const auto used = [](double value) { return value > 0 ? json_number(value) : Json(nullptr); };
   return {{"shape", command.shape},
-          {"method", command.options.method},
+          {"method", command.method.value_or(command.options.method)},
           {"noise_edges", json_number(r.noise)},
           {"mean_edge", json_number(r.mean_edge)},
           {"steps", r.steps},
@@ -61,12 +65,39 @@ Json to_json(const FairCommand& command, const FairReport& r) {
           {"files", command.outputs}};
 }
 
-void run_fair(const FairCommand& command) {
-  for (const std::string& path : command.outputs) check_mesh_path(path);
-  catch_interrupts();
-  ProgressBar bar(command.quiet || command.json ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
-  const TriangleMesh mesh = read_shape(command.shape).mesh;
-  const Faired result = fair(mesh, command.options, bar.progress());
+void print_report(const FairCommand& command, const AttributeReport& r) {
+  std::printf("noise     %s of %s (%s)\n", brief(r.noise).c_str(), command.attribute.c_str(),
+              command.options.noise ? "as given" : "estimated");
+  std::printf("smoothed  %d steps", r.steps);
+  if (r.contrast > 0) std::printf(", edges from a slope of %s per mean edge", brief(r.contrast).c_str());
+  std::printf("\nchanged   %s\n", brief(r.changed).c_str());
+}
+
+Json to_json(const FairCommand& command, const AttributeReport& r) {
+  return {{"shape", command.shape},
+          {"attribute", command.attribute},
+          {"noise", json_number(r.noise)},
+          {"steps", r.steps},
+          {"changed", json_number(r.changed)},
+          {"contrast", r.contrast > 0 ? json_number(r.contrast) : Json(nullptr)},
+          {"files", command.outputs}};
+}
+
+SmoothedAttribute smooth(const FairCommand& command, const TriangleMesh& mesh, const Progress& progress) {
+  AttributeOptions options{.noise = command.options.noise, .steps = command.options.steps};
+  if (command.method) options.method = *command.method;
+  if (command.options.tau) options.tau = *command.options.tau;
+  return smooth_attribute(mesh, command.attribute, options, progress);
+}
+
+Faired faired(const FairCommand& command, const TriangleMesh& mesh, const Progress& progress) {
+  FairOptions options = command.options;
+  if (command.method) options.method = *command.method;
+  return fair(mesh, options, progress);
+}
+
+template <class Result>
+void finish(const FairCommand& command, const Result& result, ProgressBar& bar) {
   bar.clear();
   for (const std::string& path : command.outputs) write_mesh(result.mesh, path);
   if (command.json) return print_json(to_json(command, result.report));
@@ -75,22 +106,45 @@ void run_fair(const FairCommand& command) {
   for (const std::string& path : command.outputs) std::printf("wrote     %s\n", path.c_str());
 }
 
-void add_method_options(CLI::App* app, FairOptions& options) {
-  app->add_option("--method", options.method,
+void run_fair(const FairCommand& command) {
+  for (const std::string& path : command.outputs) check_mesh_path(path);
+  catch_interrupts();
+  ProgressBar bar(command.quiet || command.json ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
+  const TriangleMesh mesh = read_shape(command.shape).mesh;
+  if (command.attribute.empty())
+    finish(command, faired(command, mesh, bar.progress()), bar);
+  else
+    finish(command, smooth(command, mesh, bar.progress()), bar);
+}
+
+void add_method_options(CLI::App* app, FairCommand& command) {
+  FairOptions& options = command.options;
+  CLI::Option* attribute =
+      app->add_option("--attribute", command.attribute,
+                      "Smooth this vertex attribute, for example color, and leave the vertices where they are")
+          ->type_name("NAME");
+  app->add_option("--method", command.method,
                   "guided (default), or for comparison: paper (anisotropic diffusion on the limit surface, Bajaj, Xu, "
-                  "Zhang 2008), isotropic, taubin")
+                  "Zhang 2008), isotropic, taubin. Of attributes: anisotropic (keeps edges; default), isotropic")
       ->type_name("NAME");
-  app->add_option("--noise", options.noise, "Standard deviation of the noise in mean edges (default: estimated)")
+  app->add_option("--noise", options.noise,
+                  "Standard deviation of the noise in mean edges, or in the attribute's unit (default: estimated)")
       ->type_name("X");
   app->add_option("--steps", options.steps, "Take so many steps (default: until the noise is off)")->type_name("N");
-  app->add_option("--tau", options.tau, "isotropic, paper: time of one step in squared mean edges (0.1, 0.2)")
+  app->add_option("--tau", options.tau,
+                  "isotropic, paper, attributes: time of one step in squared mean edges (0.1, 0.2, 0.1)")
       ->type_name("X");
   app->add_option("--sigma", options.sigma, "paper: width of the smoothing before curvatures are taken, edges (1)")
-      ->type_name("X");
+      ->type_name("X")
+      ->excludes(attribute);
   app->add_option("--angle", options.angle, "paper: bend per edge that counts as an edge of the shape, degrees (11.5)")
-      ->type_name("X");
+      ->type_name("X")
+      ->excludes(attribute);
   app->add_option("--mu", options.mu, "paper: 0 adapts diffusion to the size of triangles, 1 the time step (0)")
-      ->type_name("X");
+      ->type_name("X")
+      ->excludes(attribute);
+  app->add_flag("--slide", options.slide, "Let boundary vertices move along the boundary (default: they stay)")
+      ->excludes(attribute);
 }
 
 }  // namespace
@@ -101,8 +155,9 @@ Command add_fair(CLI::App& parent) {
       "fair",
       "Take the noise off a mesh and keep its edges\n"
       "Estimates the noise, filters the normals of the triangles and lets the vertices follow, until as much has moved "
-      "as the noise amounts to. Triangles, attributes and volume stay; boundaries do not move. Says what was chosen; "
-      "options override.");
+      "as the noise amounts to. Triangles, attributes and volume stay; boundaries do not move. With --attribute the "
+      "same "
+      "for a function on the surface. Says what was chosen; options override.");
   app->add_option("SHAPE", command->shape, "An OBJ, PLY, STL, OFF, glTF or GLB file, or builtin:NAME?n=VERTICES")
       ->required()
       ->type_name("");
@@ -110,11 +165,12 @@ Command add_fair(CLI::App& parent) {
       ->required()
       ->delimiter(',')
       ->type_name("FILES");
-  add_method_options(app, command->options);
+  add_method_options(app, *command);
   app->add_flag("--json", command->json, "Print what was done as JSON");
   app->add_flag("-q,--quiet", command->quiet, "Print nothing but errors");
   app->footer(
-      "Examples:\n  pelage fair scan.ply -o clean.ply\n  pelage fair part.stl --noise 0.1 -o clean.stl,clean.glb");
+      "Examples:\n  pelage fair scan.ply -o clean.ply\n  pelage fair scan.ply --attribute color -o even.ply\n  pelage "
+      "fair part.stl --noise 0.1 -o clean.stl,clean.glb");
   return {app, [command] { run_fair(*command); }};
 }
 

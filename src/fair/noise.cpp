@@ -28,8 +28,11 @@ std::vector<Index> two_rings(const Topology& topology, Index v) {
   return all;
 }
 
-/// Root mean square of what the best quadratic leaves, per degree of freedom; negative if there are too few vertices.
-double residual(const Topology& topology, const std::vector<Point>& points, const Vector3& normal, Index v) {
+/// Root mean square of what the best quadratic in the plane across `normal` leaves of the values at the vertices near
+/// v, per degree of freedom; negative if there are too few vertices.
+template <class Value>
+double residual(const Topology& topology, const std::vector<Point>& points, const Vector3& normal, Index v,
+                const Value& value) {
   const std::vector<Index> near = two_rings(topology, v);
   const auto count = static_cast<Eigen::Index>(near.size());
   if (count < unknowns + 4 || !(normal.norm() > 0)) return -1;
@@ -38,15 +41,15 @@ double residual(const Topology& topology, const std::vector<Point>& points, cons
   for (Index w : near) scale = std::max(scale, (vector3(points[w]) - centre).norm());
   if (!(scale > 0)) return -1;
   Eigen::Matrix<double, Eigen::Dynamic, unknowns> a(count, unknowns);
-  Eigen::VectorXd height(count);
+  Eigen::VectorXd values(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const Vector3 d = (vector3(points[near[i]]) - centre) / scale;
     const double u = d.dot(x), w = d.dot(y);
     a.row(i) << 1, u, w, u * u, u * w, w * w;
-    height[i] = d.dot(normal);
+    values[i] = value(near[i]);
   }
-  const Eigen::VectorXd fit = a.colPivHouseholderQr().solve(height);
-  return scale * std::sqrt((height - a * fit).squaredNorm() / static_cast<double>(count - unknowns));
+  const Eigen::VectorXd fit = a.colPivHouseholderQr().solve(values);
+  return std::sqrt((values - a * fit).squaredNorm() / static_cast<double>(count - unknowns));
 }
 
 /// Below the quantile lie 40 % of the fits: few enough to leave out edges, enough for noise that sits on some vertices
@@ -55,9 +58,9 @@ constexpr double share = 0.4;
 /// The same quantile of sqrt(chi^2 / n), n = 13 degrees of freedom: 19 vertices around one of valence 6.
 constexpr double gaussian_quantile = 0.9257;
 
-}  // namespace
-
-double estimate_noise(const Topology& topology, const std::vector<Point>& points) {
+/// The quantile of the residuals at all vertices; `make_value(v, normal)` gives the function that is fitted at v.
+template <class MakeValue>
+double noise_of_fits(const Topology& topology, const std::vector<Point>& points, const MakeValue& make_value) {
   const FaceGeometry g = face_geometry(topology.triangles, points);
   const std::vector<Vector3> normal = vertex_means(topology, g.normal, g.area);
   std::vector<double> all(points.size());
@@ -65,11 +68,12 @@ double estimate_noise(const Topology& topology, const std::vector<Point>& points
       points.size(),
       [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
-          Vector3 wide = Vector3::Zero();  // one normal is too noisy to measure heights along
+          Vector3 wide = normal[v];  // one normal is too noisy to measure heights along
           std::vector<Index> ring;
           topology.one_ring(static_cast<Index>(v), ring);
           for (Index w : ring) wide += normal[w];
-          all[v] = residual(topology, points, (wide + normal[v]).normalized(), static_cast<Index>(v));
+          wide.normalize();
+          all[v] = residual(topology, points, wide, static_cast<Index>(v), make_value(v, wide));
         }
       },
       256);
@@ -78,6 +82,20 @@ double estimate_noise(const Topology& topology, const std::vector<Point>& points
   const auto quantile = all.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(all.size() - 1));
   std::nth_element(all.begin(), quantile, all.end());
   return *quantile / gaussian_quantile;
+}
+
+}  // namespace
+
+double estimate_noise(const Topology& topology, const std::vector<Point>& points) {
+  return noise_of_fits(topology, points, [&](std::size_t v, const Vector3& normal) {
+    return [&, centre = vector3(points[v])](Index w) { return (vector3(points[w]) - centre).dot(normal); };
+  });
+}
+
+double estimate_noise(const Topology& topology, const std::vector<Point>& points, const std::vector<double>& values) {
+  return noise_of_fits(topology, points, [&](std::size_t v, const Vector3&) {
+    return [&, centre = values[v]](Index w) { return values[w] - centre; };
+  });
 }
 
 }  // namespace pelage

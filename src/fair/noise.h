@@ -11,4 +11,7 @@ namespace pelage {
 /// too small for any fit.
 double estimate_noise(const Topology& topology, const std::vector<Point>& points);
 
+/// The same for a function with one value per vertex, in its unit.
+double estimate_noise(const Topology& topology, const std::vector<Point>& points, const std::vector<double>& values);
+
 }  // namespace pelage

@@ -1,10 +1,10 @@
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
 #include "base/parallel.h"
 #include "discretise/curvature.h"
 #include "discretise/sampling.h"
+#include "fair/diffusivity.h"
 #include "fair/faces.h"
 #include "fair/flow.h"
 #include "linalg/conjugate_gradient.h"
@@ -15,23 +15,10 @@ namespace {
 
 std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
-/// Eq. (20) with |s|: 1 up to lambda, then falling.
-double throttle(double s, double lambda) {
-  const double beyond = (std::abs(s) - lambda) / lambda;
-  return beyond <= 0 ? 1 : 1 / (1 + beyond * beyond);
-}
-
-/// D = sum of g(k_i) e_i e_i' for a curvature tensor, eq. (19); its part along the normal does not act.
-Tensor diffusion_tensor(const Tensor& curvature, double lambda, double factor) {
-  Eigen::Matrix3d s;
-  s << curvature[0], curvature[1], curvature[2], curvature[1], curvature[3], curvature[4], curvature[2], curvature[4],
-      curvature[5];
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.computeDirect(s);
-  Eigen::Vector3d g;
-  for (int k = 0; k < 3; ++k) g[k] = factor * throttle(eigen.eigenvalues()[k], lambda);
-  const Eigen::Matrix3d d = eigen.eigenvectors() * g.asDiagonal() * eigen.eigenvectors().transpose();
-  return {d(0, 0), d(0, 1), d(0, 2), d(1, 1), d(1, 2), d(2, 2)};
+Eigen::Matrix3d as_matrix(const Tensor& t) {
+  Eigen::Matrix3d m;
+  m << t[0], t[1], t[2], t[1], t[3], t[4], t[2], t[4], t[5];
+  return m;
 }
 
 /// Solves (M + tau K) x = M x0 for the three coordinates.
@@ -108,7 +95,8 @@ class Paper final : public FairMethod {
     std::vector<Tensor> tensor = quadrature_curvature(discretisation_, smooth);
     const std::vector<double> factor = powers(1 - mu_);
     parallel_for(tensor.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t q = begin; q < end; ++q) tensor[q] = diffusion_tensor(tensor[q], lambda, factor[q]);
+      for (std::size_t q = begin; q < end; ++q)
+        tensor[q] = diffusion_tensor(as_matrix(tensor[q]), [&](double k) { return factor[q] * throttle(k, lambda); });
     });
     return tensor;
   }

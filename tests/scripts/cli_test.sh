@@ -326,6 +326,13 @@ is_json stdout
 json 'd["method"] == "guided" and d["files"] == ["faired.ply", "faired.obj"]'
 succeed fair faired.ply --method paper --steps 1 --quiet -o again.ply
 [ ! -s stdout ] || fail "--quiet is not quiet: $(cat stdout)"
+succeed fair moved.ply --attribute color -o even.ply --json
+json 'd["attribute"] == "color" and d["steps"] >= 1 and d["files"] == ["even.ply"]'
+succeed fair moved.ply --attribute b --method isotropic --steps 2 --tau 1 -o even.ply
+grep -q '^smoothed *2 steps' stdout || fail "fair --attribute does not say what it did"
+expect 2 'unknown attribute "colour"; did you mean "color"' fair moved.ply --attribute colour -o even.ply
+expect 2 '--attribute excludes --slide|--slide excludes --attribute' fair moved.ply --attribute b --slide -o even.ply
+succeed fair builtin:plane?n=400 --method isotropic --steps 1 --slide -q -o slid.ply
 succeed compare again.ply faired.ply --json
 json 'd["normals"]["flipped"] == 0 and d["distance"] < 0.1'
 succeed compare faired.ply builtin:sphere?n=642
