@@ -109,15 +109,23 @@ Fairing::Fairing(const TriangleMesh& mesh, const FairOptions& options) : options
 
 Fairing::~Fairing() = default;
 
-bool Fairing::done() const {
-  if (report_.steps >= most_steps_) return true;
-  return !options_.steps && report_.steps > 0 && report_.moved >= noise_share * report_.noise;
-}
+bool Fairing::done() const { return finished_ || report_.steps >= most_steps_; }
 
 void Fairing::step() {
+  std::vector<Point>& points = parts_->state.points;
+  const std::vector<Point> before = points;
+  const double moved_before = report_.moved;
   parts_->method->step(parts_->state, report_);
-  if (parts_->rails) parts_->rails->put_back(parts_->state.points);
+  if (parts_->rails) parts_->rails->put_back(points);
   ++report_.steps;
+  measure();
+  const double wanted = noise_share * report_.noise;
+  finished_ = !options_.steps && report_.moved >= wanted;
+  if (!finished_ || moved_before >= wanted) return;
+  // The last step ends where the noise is off: a whole one takes too much of a coarse mesh.
+  const double part = (wanted - moved_before) / (report_.moved - moved_before);
+  for (std::size_t v = 0; v < points.size(); ++v)
+    for (std::size_t k = 0; k < 3; ++k) points[v][k] = before[v][k] + part * (points[v][k] - before[v][k]);
   measure();
 }
 
@@ -131,9 +139,10 @@ std::vector<Point> Fairing::points() const {
 
 const std::vector<Point>& Fairing::state() const { return parts_->state.points; }
 
-void Fairing::restore(std::vector<Point> state, int steps) {
+void Fairing::restore(std::vector<Point> state, int steps, bool done) {
   parts_->state.points = std::move(state);
   report_.steps = steps;
+  finished_ = done;
   if (steps > 0) measure();
 }
 

@@ -65,10 +65,10 @@ class Fairing {
   /// Steps after which it ends in any case.
   int most_steps() const { return most_steps_; }
 
-  /// The vertices between two steps, without their volume restored; with report().steps all that changes.
+  /// The vertices between two steps, without their volume restored; with report().steps and done() all that changes.
   const std::vector<Point>& state() const;
   /// Goes on from there. As many points as the mesh has vertices.
-  void restore(std::vector<Point> state, int steps);
+  void restore(std::vector<Point> state, int steps, bool done);
 
  private:
   struct Parts;
@@ -77,6 +77,7 @@ class Fairing {
   FairOptions options_;
   FairReport report_;
   int most_steps_ = 0;
+  bool finished_ = false;
   std::unique_ptr<Parts> parts_;
 };
 

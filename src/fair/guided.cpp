@@ -10,12 +10,14 @@ namespace {
 class Guided final : public FairMethod {
  public:
   explicit Guided(const FairState& state)
-      : faces_of_vertex_(faces_of_vertices(state.topology)), filter_(state.topology, state.points) {}
+      : faces_of_vertex_(faces_of_vertices(state.topology)),
+        filter_(state.topology, state.points),
+        unfolding_(state.topology, state.points) {}
 
   void step(FairState& s, FairReport& report) override {
     const std::vector<Vector3> normal = filter_.filter(face_geometry(s.topology.triangles, s.points));
     follow_normals(s.topology, faces_of_vertex_, normal, s.fixed, vertex_rounds, s.points);
-    report.folded = unfold(s.topology, faces_of_vertex_, normal, s.fixed, unfold_rounds, s.points);
+    report.folded = unfolding_.apply(faces_of_vertex_, normal, s.fixed, unfold_rounds, s.points);
     report.range = filter_.range();
   }
 
@@ -26,6 +28,7 @@ class Guided final : public FairMethod {
   static constexpr int vertex_rounds = 10, unfold_rounds = 5;  // the first as Zhang et al. 2015
   FaceLists faces_of_vertex_;
   NormalFilter filter_;
+  Unfolding unfolding_;
 };
 
 }  // namespace

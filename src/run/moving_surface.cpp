@@ -47,12 +47,12 @@ std::vector<Point> MovingSurface::points() const {
 }
 
 MovingSurface::State MovingSurface::state() const {
-  if (!fairing_) return {{}, 0, scale_};
-  return {fairing_->state(), fairing_->report().steps, scale_};
+  if (!fairing_) return {{}, 0, false, scale_};
+  return {fairing_->state(), fairing_->report().steps, fairing_->done(), scale_};
 }
 
 void MovingSurface::restore(State state) {
-  if (fairing_) fairing_->restore(std::move(state.faired), state.fair_steps);
+  if (fairing_) fairing_->restore(std::move(state.faired), state.fair_steps, state.fair_done);
   scale_ = state.scale;
 }
 

@@ -25,6 +25,7 @@ class MovingSurface {
   struct State {
     std::vector<Point> faired;
     int fair_steps = 0;
+    bool fair_done = false;
     double scale = 1;
   };
   State state() const;

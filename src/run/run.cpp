@@ -292,6 +292,7 @@ std::string Run::checkpoint() const {
   const MovingSurface::State surface = surface_->state();
   w.number(surface.scale);
   w.number(static_cast<std::uint64_t>(surface.fair_steps));
+  w.number(static_cast<std::uint64_t>(surface.fair_done));
   w.fields({flattened(surface.faired)});
   return out;
 }
@@ -317,6 +318,7 @@ void Run::restore(const std::string& bytes) {
   if (surface_) {
     surface.scale = r.number<double>();
     surface.fair_steps = static_cast<int>(r.number<std::uint64_t>());
+    surface.fair_done = r.number<std::uint64_t>() != 0;
     const std::vector<Vector> faired = r.fields();
     fits = has_sizes(faired, 1, 3 * std::ssize(surface_->state().faired)) && surface.scale > 0;
     if (fits) surface.faired = as_points(faired[0]);
