@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number.h"
 #include "base/random.h"
 #include "linalg/conjugate_gradient.h"
 #include "pelage/error.h"
+#include "run/anisotropy.h"
 #include "time/step_support.h"
 
 namespace pelage {
@@ -14,6 +16,10 @@ namespace {
 
 /// A finer mesh would need more than the memory of common machines: about 2 kB per Loop vertex.
 constexpr std::size_t max_triangles = 8'000'000;
+
+/// Ratio of the rates along and across up to which waves across the field decay to a few percent as they should with
+/// `vertices_per_wavelength` (docs/method.md has the measurement).
+constexpr double safe_ratio = 4;
 
 void report(const Progress& progress, std::string_view what, double fraction) {
   if (progress && !progress(what, fraction)) throw Error(Fault::cancelled, "cancelled");
@@ -94,15 +100,12 @@ void Operators::build_species(const Program& program, const VertexAttributes& at
     const auto constant = model_.diffusion_constant(i);
     if (constant) s.diffusion *= *constant;
     system_.species.push_back(s);
-    if (constant) continue;
-    if (!quadrature_kinetics_) {
-      const PlaceFields fields = quadrature_fields(model_, *discretisation_, control_, attributes);
-      quadrature_kinetics_ = std::make_unique<Kinetics>(model_, fields.places(length_unit_), program.seed);
-      quadrature_values_ = quadrature_values(*discretisation_);
-    }
+    if (constant && !model_.anisotropic(i)) continue;
+    if (!quadrature_kinetics_) build_quadrature(program, attributes);
     variable_[i] = std::make_unique<Variable>();
-    fill_variable(i, nullptr);
+    if (!model_.anisotropic(i)) fill_variable(i, nullptr);
   }
+  if (model_.anisotropic()) build_anisotropy(program);
   couple_species(scale);
   system_.reaction.rates = [this](const FieldPointers& u, double t, std::size_t begin, std::size_t end,
                                   const MutableFieldPointers& rate) { kinetics_->rates(u, t, begin, end, rate); };
@@ -112,6 +115,29 @@ void Operators::build_species(const Program& program, const VertexAttributes& at
   system_.weighted_mass = [this](const Vector& factor) {
     return assembler_->mass(control_, std::vector<double>(factor.begin(), factor.end()));
   };
+}
+
+void Operators::build_quadrature(const Program& program, const VertexAttributes& attributes) {
+  const PlaceFields fields = quadrature_fields(model_, *discretisation_, control_, attributes);
+  quadrature_kinetics_ = std::make_unique<Kinetics>(model_, fields.places(length_unit_), program.seed);
+  quadrature_values_ = quadrature_values(*discretisation_);
+}
+
+/// The stiffness of anisotropic species.
+void Operators::build_anisotropy(const Program& program) {
+  const std::vector<Tensor> lines = vertex_lines(program.shape, levels_);
+  for (std::size_t i = 0; i < model_.species_count(); ++i) {
+    if (!model_.anisotropic(i)) continue;
+    const Kinetics::TensorField rates = quadrature_kinetics_->anisotropy(i);
+    variable_[i]->stiffness =
+        assembler_->stiffness(control_, quadrature_tensors(*discretisation_, control_, lines, rates));
+    system_.species[i].stiffness = &variable_[i]->stiffness;
+    system_.species[i].diffusion = length_unit_ * length_unit_;
+    if (const double ratio = largest_ratio(rates); ratio > safe_ratio)
+      warnings_.push_back("the rates of " + model_.species_name(i) + " along and across differ " + number(ratio) +
+                          " times; above " + number(safe_ratio) +
+                          " times the mesh itself begins to show in the stripes: give a finer mesh");
+  }
 }
 
 void Operators::couple_species(double scale) {
@@ -185,7 +211,7 @@ Vector Operators::c0_at_samples(std::size_t species, const State* state) const {
 
 void Operators::update(const State& state) {
   for (std::size_t i = 0; i < variable_.size(); ++i)
-    if (variable_[i] && diffusion_varies_in_time(i)) fill_variable(i, &state);
+    if (variable_[i] && !model_.anisotropic(i) && diffusion_varies_in_time(i)) fill_variable(i, &state);
 }
 
 double Operators::largest_k2() const {

@@ -24,7 +24,9 @@ class Operators {
   const Discretisation& discretisation() const { return *discretisation_; }
   const std::vector<Point>& control() const { return control_; }
   const SparseMatrix& stiffness() const { return stiffness_; }  ///< of unit diffusion
-  int levels() const { return levels_; }                        ///< refinements of the program's shape
+  /// What the caller should know about, each in one line: anisotropies that the mesh cannot carry.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  int levels() const { return levels_; }  ///< refinements of the program's shape
 
   /// An upper estimate of the largest k^2 that the mesh carries: of K x = k^2 M x, by power iteration [1 / world^2].
   double largest_k2() const;
@@ -37,6 +39,8 @@ class Operators {
 
  private:
   void build_species(const Program& program, const VertexAttributes& attributes);
+  void build_quadrature(const Program& program, const VertexAttributes& attributes);
+  void build_anisotropy(const Program& program);
   void couple_species(double scale);
   struct Coefficients {
     std::vector<Vector> c0, c1;
@@ -56,6 +60,7 @@ class Operators {
   std::unique_ptr<Assembler> assembler_;
   Sampling sampling_;
   SparseMatrix mass_, stiffness_;
+  std::vector<std::string> warnings_;
   std::unique_ptr<Kinetics> kinetics_;             ///< at the samples
   std::unique_ptr<Kinetics> quadrature_kinetics_;  ///< at the quadrature points, for diffusion that varies
   SparseMatrix quadrature_values_;
