@@ -72,6 +72,10 @@ void warn_about_step(const Run& run, GrowReport& report) {
                    run.program().stepper + "; what grows may be an artefact of the step");
 }
 
+void warn_about_anisotropy(const Run& run, GrowReport& report) {
+  for (const std::string& text : run.operators().warnings()) report.warning(text);
+}
+
 void restore(Run& run, const std::string& path) {
   if (path.empty()) return;
   const std::string bytes = read_file(path);
@@ -160,6 +164,7 @@ void grow(const GrowOptions& options) {
   Run run = interruptible("before the growth began; nothing was written",
                           [&] { return Run(resolve(recipe, std::move(file.mesh)), progress); });
   warn_about_step(run, report);
+  warn_about_anisotropy(run, report);
   restore(run, options.resume);
   report.pattern(recipe.stage.model.value, run);
   const Stopwatch growth;

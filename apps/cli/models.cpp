@@ -64,8 +64,11 @@ std::string plus(const Formula& f) { return f.text.starts_with('-') ? " - " + f.
 std::string equation(const SpeciesSource& s) {
   if (s.equals) return s.name + " = " + s.equals->text;
   std::string text = "d" + s.name + "/dt = ";
-  if (!s.diffusion && !s.c0 && !s.c1) return text + s.rate->text;
-  if (s.diffusion)
+  if (!s.diffusion && !s.anisotropy && !s.c0 && !s.c1) return text + s.rate->text;
+  if (s.anisotropy)
+    text += "div(A[" + s.anisotropy->theta.text + "; " + s.anisotropy->a1.text + "; " + s.anisotropy->a2.text +
+            "] grad " + s.name + ")";
+  else if (s.diffusion)
     text += "div(" + in_brackets(*s.diffusion) + " grad " + s.name + ")";
   else
     text += (s.c0 ? in_brackets(*s.c0) + " " : "") + "div(" + (s.c1 ? in_brackets(*s.c1) + " " : "") + "grad " +
@@ -157,9 +160,14 @@ Json formula(const std::optional<Formula>& f) { return f ? Json(f->text) : Json(
 
 Json value(const std::optional<double>& x) { return x ? json_number(*x) : Json(nullptr); }
 
+Json anisotropy(const std::optional<AnisotropySource>& a) {
+  return a ? Json{{"theta", a->theta.text}, {"a1", a->a1.text}, {"a2", a->a2.text}} : Json(nullptr);
+}
+
 Json to_json(const SpeciesSource& s) {
   return {{"name", s.name},
           {"diffusion", formula(s.diffusion)},
+          {"anisotropy", anisotropy(s.anisotropy)},
           {"rate", formula(s.rate)},
           {"equals", formula(s.equals)},
           {"C0", formula(s.c0)},

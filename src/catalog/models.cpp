@@ -24,10 +24,19 @@ std::optional<Formula> optional_formula(const Value& table, const std::string& k
   return value ? std::optional(formula(*value)) : std::nullopt;
 }
 
+std::optional<AnisotropySource> anisotropy(const Value& species) {
+  const Value* table = species.find("anisotropy");
+  if (!table) return std::nullopt;
+  const auto theta = optional_formula(*table, "theta");
+  return AnisotropySource{theta ? *theta : Formula{"0", table->where()}, formula(table->at("a1")),
+                          formula(table->at("a2"))};
+}
+
 SpeciesSource species(const std::string& name, const Value& table) {
   return {.name = name,
           .where = table.where(),
           .diffusion = optional_formula(table, "diffusion"),
+          .anisotropy = anisotropy(table),
           .rate = optional_formula(table, "rate"),
           .equals = optional_formula(table, "equals"),
           .c0 = optional_formula(table, "C0"),

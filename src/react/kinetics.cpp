@@ -57,6 +57,10 @@ class KineticsBuilder {
     kinetics_.jacobian_ = program(e.jacobian);
     kinetics_.diffusion_ = program(join(e.prefactor, e.diffusion));
     for (std::size_t i = 0; i < e.initial.size(); ++i) kinetics_.initial_.push_back(initial(i));
+    for (const auto& a : e.anisotropy) {
+      auto& fields = kinetics_.anisotropy_.emplace_back();
+      if (a) fields = {place_field(a->theta), place_field(a->a1), place_field(a->a2)};
+    }
   }
 
  private:
@@ -99,10 +103,15 @@ class KineticsBuilder {
     return numbers;
   }
 
+  /// An expression of the place: one value per sample, or one for all.
+  std::vector<double> place_field(NodeId expression) {
+    const std::vector<NodeId> root = expand_powers(graph_, std::vector<NodeId>{expression});
+    return graph_[root[0]].dependence ? std::move(evaluate_places(root)[0])
+                                      : std::vector<double>{*graph_.constant_value(root[0])};
+  }
+
   std::vector<double> initial(std::size_t i) {
-    const std::vector<NodeId> root = expand_powers(graph_, std::vector<NodeId>{equations_.initial[i]});
-    std::vector<double> values = graph_[root[0]].dependence ? std::move(evaluate_places(root)[0])
-                                                            : std::vector<double>{*graph_.constant_value(root[0])};
+    std::vector<double> values = place_field(equations_.initial[i]);
     for (double& value : values) value = std::min(std::max(value, equations_.lower[i]), equations_.upper[i]);
     return values;
   }
@@ -164,6 +173,14 @@ void Kinetics::jacobian(SpeciesValues u, double t, std::size_t begin, std::size_
 void Kinetics::diffusion(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput c0,
                          SpeciesOutput c1) const {
   run(diffusion_, u, t, begin, end, join(c0, c1));
+}
+
+Kinetics::TensorField Kinetics::anisotropy(std::size_t i) const {
+  const auto spread = [&](const std::vector<double>& values) {
+    return values.size() == 1 ? std::vector<double>(size_, values.front()) : values;
+  };
+  const auto& [theta, a1, a2] = anisotropy_[i];
+  return {spread(theta), spread(a1), spread(a2)};
 }
 
 void Kinetics::initial(std::size_t i, std::span<double> out) const {

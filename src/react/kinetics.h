@@ -1,6 +1,7 @@
 #pragma once
 // A model bound to places on a surface: rates, coefficients and initial values, evaluated in blocks.
 
+#include <array>
 #include <map>
 #include <span>
 #include <string>
@@ -46,6 +47,11 @@ class Kinetics {
   /// C0 and C1 of every species (C0 = 1 where C0 is constant: then C1 holds the product).
   void diffusion(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput c0,
                  SpeciesOutput c1) const;
+  /// Diffusion tensor of an anisotropic species (react/model.h), one value per sample.
+  struct TensorField {
+    std::vector<double> theta, a1, a2;
+  };
+  TensorField anisotropy(std::size_t i) const;
   /// The concentrations of species i at time 0, for all samples, clamped to its bounds.
   void initial(std::size_t i, std::span<double> out) const;
 
@@ -64,6 +70,7 @@ class Kinetics {
   Graph graph_;
   std::vector<std::vector<double>> fields_;   ///< expressions of the place alone, one value per sample
   std::vector<std::vector<double>> initial_;  ///< one value per sample, or one for all
+  std::vector<std::array<std::vector<double>, 3>> anisotropy_;  ///< theta, a1, a2 likewise; empty where isotropic
   Program rates_, split_, jacobian_, diffusion_;
 };
 

@@ -147,6 +147,9 @@ class Compiler {
   }
 
   static void require_nothing_else(const SpeciesSource& species) {
+    if (species.anisotropy)
+      fail("species \"" + species.name + "\" is determined by `equals`; give nothing else beside it",
+           species.anisotropy->a1.where);
     for (const auto* other : {&species.diffusion, &species.rate, &species.c0, &species.c1, &species.c2, &species.c3,
                               &species.initial, &species.lower, &species.upper})
       if (*other)
@@ -154,7 +157,31 @@ class Compiler {
              (*other)->where);
   }
 
+  NodeId parse_anisotropy(const SpeciesSource& species, const std::string& key, const Formula& formula) {
+    const NodeId id = parse(species, "anisotropy." + key, formula, 0);
+    if (graph_[id].dependence & (on_species | on_time))
+      fail("an anisotropy cannot depend on species or on time", formula.where);
+    return id;
+  }
+
+  void add_anisotropic_diffusion(const SpeciesSource& species) {
+    for (const auto* other : {&species.diffusion, &species.c0, &species.c1})
+      if (*other)
+        fail("species \"" + species.name + "\": give anisotropy, or " +
+                 (other == &species.diffusion ? "diffusion" : "C0 and C1") + ", not both",
+             (*other)->where);
+    const AnisotropySource& a = *species.anisotropy;
+    const Anisotropy nodes{parse_anisotropy(species, "theta", a.theta), parse_anisotropy(species, "a1", a.a1),
+                           parse_anisotropy(species, "a2", a.a2)};
+    equations_.anisotropy.emplace_back(nodes);
+    equations_.prefactor.push_back(graph_.constant(1));
+    const Term across{&graph_, nodes.a2};
+    equations_.diffusion.push_back((across * across).id);
+  }
+
   void add_diffusion(const SpeciesSource& species) {
+    if (species.anisotropy) return add_anisotropic_diffusion(species);
+    equations_.anisotropy.emplace_back();
     const bool coefficients = species.c0 || species.c1;
     if (species.diffusion && coefficients)
       fail("species \"" + species.name + "\": give diffusion, or C0 and C1, not both", species.where);
@@ -194,8 +221,9 @@ class Compiler {
       split = {parse(species, "C2", species.c2, 0), parse(species, "C3", species.c3, 0)};
       rate = (Term{&graph_, split.c2} * u + Term{&graph_, split.c3}).id;
     }
-    if (!species.diffusion && !species.c0 && !species.c1 && !species.equals && !laplacians)
+    if (!species.diffusion && !species.anisotropy && !species.c0 && !species.c1 && !species.equals && !laplacians)
       fail("species \"" + species.name + "\" has no diffusion; give 0 if it does not diffuse", species.where);
+    has_laplacian_.push_back(laplacians);
     equations_.rate.push_back(rate);
     equations_.c2.push_back(split.c2);
     equations_.c3.push_back(split.c3);
@@ -222,6 +250,9 @@ class Compiler {
     equations_.cross.resize(equations_.species.size() * equations_.species.size(), 0.0);
     const auto diffusion = graph_.constant_value(equations_.diffusion[i]);
     const bool coupled = is_coupled(equations_, i);
+    if (species.anisotropy && (coupled || has_laplacian_[i]))
+      fail("species \"" + species.name + "\" is anisotropic; its equations cannot contain lap()",
+           species.anisotropy->a1.where);
     if (coupled && !(diffusion && graph_.constant_value(equations_.prefactor[i])))
       fail("the diffusion of species \"" + species.name +
                "\" varies; one that is linked to others by lap() must be made of numbers and parameters",
@@ -270,6 +301,7 @@ class Compiler {
   Equations equations_;
   Graph& graph_ = equations_.graph;
   Scope scope_;
+  std::vector<char> has_laplacian_;  ///< whether a species' own formula contains lap()
   std::set<std::string> taken_;
 };
 
@@ -307,6 +339,10 @@ std::vector<std::size_t> Model::coupled() const {
   for (std::size_t i = 0; i < species_count(); ++i)
     if (is_coupled(*equations_, i)) list.push_back(i);
   return list;
+}
+
+bool Model::anisotropic() const {
+  return std::ranges::any_of(equations_->anisotropy, [](const auto& a) { return a.has_value(); });
 }
 
 bool Model::varying_prefactor(std::size_t i) const {

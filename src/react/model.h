@@ -20,13 +20,22 @@
 
 namespace pelage {
 
+/// Diffusion that differs along and across a direction field on the surface (Witkin, Kass 1991):
+/// tensor = a1^2 d d' + a2^2 n n' with d at the angle theta, counter-clockwise, from the field and n across d. Formulas
+/// of the place and of parameters.
+struct AnisotropySource {
+  Formula theta;   ///< radians
+  Formula a1, a2;  ///< rates: model length unit / square root of the model time unit
+};
+
 struct SpeciesSource {
   std::string name;
   Location where;
-  std::optional<Formula> diffusion;  ///< model length unit^2 / model time unit; "0" if it does not diffuse
-  std::optional<Formula> rate;       ///< R: concentration / model time unit; may contain D lap(v)
-  std::optional<Formula> equals;     ///< makes it algebraic, instead of all else: a formula in the evolving species and
-                                     ///< in the Laplacians of all
+  std::optional<Formula> diffusion;            ///< model length unit^2 / model time unit; "0" if it does not diffuse
+  std::optional<AnisotropySource> anisotropy;  ///< instead of `diffusion`
+  std::optional<Formula> rate;                 ///< R: concentration / model time unit; may contain D lap(v)
+  std::optional<Formula> equals;  ///< makes it algebraic, instead of all else: a formula in the evolving species and
+                                  ///< in the Laplacians of all
   std::optional<Formula> c0, c1, c2,
       c3;                               ///< instead of `diffusion` (C0, C1) or of `rate` (C2, C3); C0, C1 default to 1
   std::optional<Formula> initial;       ///< at time 0; defaults to 0
@@ -97,15 +106,22 @@ struct ModelSource {
 /// The model with the values of one of its variants. Error(usage) for an unknown variant.
 ModelSource with_variant(ModelSource source, const std::string& variant);
 
+/// A diffusion tensor as expressions of the place; see AnisotropySource.
+struct Anisotropy {
+  NodeId theta, a1, a2;
+};
+
 /// The equations of a model; expressions in terms of `graph`, one per species unless said otherwise.
 struct Equations {
   Graph graph;
-  std::vector<NodeId> species;       ///< the symbols
-  std::vector<char> algebraic;       ///< u = R + Laplacians instead of du/dt = R + Laplacians
-  std::vector<NodeId> rate;          ///< R, without Laplacians; of algebraic species depends on evolving ones only
-  std::vector<NodeId> c2, c3;        ///< R = C2 u + C3
-  std::vector<NodeId> prefactor;     ///< C0, 1 when it is constant (then it is part of `diffusion`)
-  std::vector<NodeId> diffusion;     ///< C1, with the coefficient of the species' own Laplacian in its rate
+  std::vector<NodeId> species;    ///< the symbols
+  std::vector<char> algebraic;    ///< u = R + Laplacians instead of du/dt = R + Laplacians
+  std::vector<NodeId> rate;       ///< R, without Laplacians; of algebraic species depends on evolving ones only
+  std::vector<NodeId> c2, c3;     ///< R = C2 u + C3
+  std::vector<NodeId> prefactor;  ///< C0, 1 when it is constant (then it is part of `diffusion`)
+  std::vector<NodeId> diffusion;  ///< C1, with the coefficient of the species' own Laplacian in its rate; where it is
+                                  ///< anisotropic a2^2, that across the stripes which the field draws out
+  std::vector<std::optional<Anisotropy>> anisotropy;
   std::vector<double> cross;         ///< coefficient of lap(u_j) in equation i at [i * species + j], 0 for j = i
   std::vector<NodeId> initial;       ///< depends on the place only
   std::vector<NodeId> jacobian;      ///< dR_i / du_j at [i * species + j]
@@ -128,6 +144,11 @@ class Model {
   std::vector<std::size_t> coupled() const;
   /// Coefficient of lap(u_j) in the equation of species i, j != i.
   double cross_diffusion(std::size_t i, std::size_t j) const { return equations_->cross[i * species_count() + j]; }
+
+  /// Whether species i diffuses differently along and across a direction field.
+  bool anisotropic(std::size_t i) const { return equations_->anisotropy[i].has_value(); }
+  /// Whether any does.
+  bool anisotropic() const;
 
   /// C0 * C1 of species i where both are numbers; otherwise see Kinetics::diffusion. Not negative unless coupled.
   std::optional<double> diffusion_constant(std::size_t i) const;

@@ -89,6 +89,8 @@ std::vector<Symbol> place_symbols(const Model& model) {
   std::vector<NodeId> roots = e.rate;
   for (const auto* expressions : {&e.prefactor, &e.diffusion, &e.initial})
     roots.insert(roots.end(), expressions->begin(), expressions->end());
+  for (const auto& a : e.anisotropy)
+    if (a) roots.insert(roots.end(), {a->theta, a->a1, a->a2});
   std::vector<Symbol> symbols;
   for (const NodeId id : reachable(e.graph, roots))
     if (e.graph[id].op == Op::symbol && e.graph[id].dependence == on_place) symbols.push_back(e.graph.symbol_of(id));

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number.h"
 #include "base/random.h"
 #include "linalg/conjugate_gradient.h"
 #include "pelage/error.h"
+#include "run/anisotropy.h"
 #include "time/step_support.h"
 
 namespace pelage {
@@ -14,6 +16,11 @@ namespace {
 
 /// A finer mesh would need more than the memory of common machines: about 2 kB per Loop vertex.
 constexpr std::size_t max_triangles = 8'000'000;
+
+/// Ratio of the rates along and across up to which waves across a field that is oblique to an even mesh decay, at
+/// `vertices_per_wavelength`, no faster than they do without anisotropy but for a percent of their rate (Loop) or for a
+/// few (linear, whose error is 17 % to begin with): tests/run/anisotropy_test.cpp measures it.
+double safe_ratio(const std::string& method) { return method == "loop" ? 32 : 2; }
 
 void report(const Progress& progress, std::string_view what, double fraction) {
   if (progress && !progress(what, fraction)) throw Error(Fault::cancelled, "cancelled");
@@ -54,6 +61,7 @@ Operators::Operators(const Program& program, const Progress& progress)
   fill_matrices(program);
   report(progress, "sampling", 0.8);
   evaluate_places(program);
+  if (model_.anisotropic()) find_directions(program);
   build_species();
 }
 
@@ -64,7 +72,7 @@ void Operators::place(const Program& program, const std::vector<Point>& points) 
   fill_matrices(program);
   evaluate_places(program);
   for (std::size_t i = 0; i < variable_.size(); ++i)
-    if (variable_[i]) fill_variable(i, nullptr);
+    if (variable_[i]) fill_own_stiffness(i);
 }
 
 void Operators::fill_matrices(const Program& program) {
@@ -88,7 +96,7 @@ void Operators::evaluate_places(const Program& program) {
   kinetics_ = kinetics(program.stepper == "paper" ? at_quadrature()
                                                   : vertex_fields(model_, *discretisation_, control_, attributes));
   bool varies = false;
-  for (std::size_t i = 0; i < model_.species_count(); ++i) varies = varies || !model_.diffusion_constant(i);
+  for (std::size_t i = 0; i < model_.species_count(); ++i) varies = varies || has_own_stiffness(i);
   if (!varies) return;
   quadrature_kinetics_ = kinetics(at_quadrature());
   quadrature_values_ = quadrature_values(*discretisation_);
@@ -128,9 +136,9 @@ void Operators::build_species() {
     const auto constant = model_.diffusion_constant(i);
     if (constant) s.diffusion *= *constant;
     system_.species.push_back(s);
-    if (constant) continue;
+    if (!has_own_stiffness(i)) continue;
     variable_[i] = std::make_unique<Variable>();
-    fill_variable(i, nullptr);
+    fill_own_stiffness(i);
   }
   couple_species(scale);
   system_.reaction.rates = [this](const FieldPointers& u, double t, std::size_t begin, std::size_t end,
@@ -141,6 +149,35 @@ void Operators::build_species() {
   system_.weighted_mass = [this](const Vector& factor) {
     return assembler_->mass(control_, std::vector<double>(factor.begin(), factor.end()));
   };
+}
+
+/// The direction field of anisotropic species; it stays with the vertices when the surface moves.
+void Operators::find_directions(const Program& program) {
+  lines_ = vertex_lines(program.shape, levels_);
+  const double safe = safe_ratio(program.method);
+  for (std::size_t i = 0; i < model_.species_count(); ++i) {
+    if (!model_.anisotropic(i)) continue;
+    if (const double ratio = largest_ratio(quadrature_kinetics_->anisotropy(i)); ratio > safe)
+      warnings_.push_back("the rates of " + model_.species_name(i) + " along and across differ " + number(ratio) +
+                          " times; above " + number(safe) + " times, with --method " + program.method +
+                          ", the mesh itself begins to show in the stripes");
+  }
+}
+
+bool Operators::has_own_stiffness(std::size_t i) const {
+  return model_.anisotropic(i) || !model_.diffusion_constant(i);
+}
+
+/// The stiffness of a species whose diffusion varies (with the initial state) or has directions.
+void Operators::fill_own_stiffness(std::size_t i) {
+  if (!model_.anisotropic(i)) return fill_variable(i, nullptr);
+  Species& s = system_.species[i];
+  SparseMatrix& stiffness = variable_[i]->stiffness;
+  const Kinetics::TensorField rates = quadrature_kinetics_->anisotropy(i);
+  stiffness = assembler_->stiffness(control_, quadrature_tensors(*discretisation_, control_, lines_, rates));
+  s.stiffness = &stiffness;
+  s.diffusion = length_unit_ * length_unit_;
+  ++s.revision;
 }
 
 void Operators::couple_species(double scale) {
@@ -214,7 +251,7 @@ Vector Operators::c0_at_samples(std::size_t species, const State* state) const {
 
 void Operators::update(const State& state) {
   for (std::size_t i = 0; i < variable_.size(); ++i)
-    if (variable_[i] && diffusion_varies_in_time(i)) fill_variable(i, &state);
+    if (variable_[i] && !model_.anisotropic(i) && diffusion_varies_in_time(i)) fill_variable(i, &state);
 }
 
 double Operators::largest_k2() const {

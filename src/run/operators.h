@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/progress.h"
+#include "discretise/assembly.h"
 #include "discretise/sampling.h"
 #include "react/kinetics.h"
 #include "run/place_fields.h"
@@ -24,7 +25,9 @@ class Operators {
   const Discretisation& discretisation() const { return *discretisation_; }
   const std::vector<Point>& control() const { return control_; }
   const SparseMatrix& stiffness() const { return stiffness_; }  ///< of unit diffusion
-  int levels() const { return levels_; }                        ///< refinements of the program's shape
+  /// What the caller should know about, each in one line: anisotropies that the mesh cannot carry.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  int levels() const { return levels_; }  ///< refinements of the program's shape
 
   /// An upper estimate of the largest k^2 that the mesh carries: of K x = k^2 M x, by power iteration [1 / world^2].
   double largest_k2() const;
@@ -43,6 +46,9 @@ class Operators {
   void fill_matrices(const Program& program);
   void evaluate_places(const Program& program);
   void build_species();
+  bool has_own_stiffness(std::size_t species) const;
+  void fill_own_stiffness(std::size_t species);
+  void find_directions(const Program& program);
   void couple_species(double scale);
   struct Coefficients {
     std::vector<Vector> c0, c1;
@@ -62,6 +68,7 @@ class Operators {
   std::unique_ptr<Assembler> assembler_;
   Sampling sampling_;
   SparseMatrix mass_, stiffness_;
+  std::vector<std::string> warnings_;
   std::unique_ptr<Kinetics> kinetics_;             ///< at the samples
   std::unique_ptr<Kinetics> quadrature_kinetics_;  ///< at the quadrature points, for diffusion that varies
   SparseMatrix quadrature_values_;
@@ -71,6 +78,7 @@ class Operators {
     Vector weight;
   };
   std::vector<std::unique_ptr<Variable>> variable_;
+  std::vector<Tensor> lines_;  ///< of the direction field, at the vertices of the discretisation
   System system_;
 };
 

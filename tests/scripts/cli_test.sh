@@ -44,14 +44,27 @@ grep -qE '^pelage [0-9]+\.[0-9]+\.[0-9]+$' stdout || fail "--version says $(cat 
 "$pelage" >stdout 2>stderr
 [ $? -eq 2 ] && [ ! -s stdout ] && grep -q Usage stderr || fail "no arguments: help on stderr and exit code 2 expected"
 succeed --help
-for command in grow check models analyse map gallery recipes fair compare verify; do
+for command in grow check models analyse map gallery recipes fair field compare verify; do
   grep -q "^  $command " stdout || fail "--help does not list $command"
 done
-for command in grow check models analyse map gallery recipes fair compare verify; do
+for command in grow check models analyse map gallery recipes fair field compare verify; do
   succeed $command --help
   grep -q "pelage $command" stdout || fail "$command --help has no example"
   [ "$(wc -L <stdout)" -le 100 ] || fail "$command --help is wider than 100 columns"
 done
+
+# --- direction fields -------------------------------------------------------------------------------------
+succeed field $sphere -n 1 -o field.vtp,field.ply --picture field.png --picture-size 60 --json
+is_json stdout
+json 'd["index_sum"] == 2'
+[ -s field.png ] && grep -q direction field.vtp || fail "field wrote no picture or no directions"
+succeed field $sphere --axis 0,0,1 --across --stroke "1,0,0 0.7,0,0.7" -q
+succeed grow field.ply "${quick[@]}" --model turing -o grown.ply
+expect 2 '--axis 1,2: expected X,Y,Z' field $sphere --axis 1,2
+expect 2 'give one of --axis' field $sphere --axis 0,0,1 --curvature
+expect 2 '--across needs' field $sphere --across
+expect 2 'mark at least one vertex at each end' field $sphere --from 3
+expect 2 'vertex 700 is marked; the mesh has 642' field $sphere --from 3 --to 700
 
 # --- wrong usage: 2 --------------------------------------------------------------------------------------
 expect 2 'unknown command "gorw".*did you mean "grow"' gorw cow.obj

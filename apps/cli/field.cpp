@@ -1,0 +1,215 @@
+// pelage field: a direction field on a surface.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <sstream>
+
+#include "command.h"
+#include "direction/guides.h"
+#include "direction/hatching.h"
+#include "interrupt.h"
+#include "io/png_writer.h"
+#include "io/read_shape.h"
+#include "io/write_mesh.h"
+#include "look/picture.h"
+#include "pelage/error.h"
+#include "progress_bar.h"
+#include "run/anisotropy.h"
+#include "run/program.h"
+#include "text.h"
+#include "usage.h"
+
+namespace pelage {
+
+namespace {
+
+struct FieldCommand {
+  std::string shape, axis, picture;
+  std::vector<std::string> outputs, strokes;
+  std::vector<Index> from, to;
+  int n = 2;
+  std::optional<double> smooth;
+  bool curvature = false, across = false, up_z = false, json = false, quiet = false;
+  double azimuth = 35, elevation = 14, spacing = 0;
+  int size = 1024;
+};
+
+/// "X,Y,Z".
+Point parse_point(const std::string& option, const std::string& text) {
+  Point p{};
+  std::istringstream in(text);
+  char comma = ',';
+  for (std::size_t k = 0; k < 3; ++k)
+    if ((k > 0 && (!(in >> comma) || comma != ',')) || !(in >> p[k]))
+      throw Error(Fault::usage, option + " " + text + ": expected X,Y,Z, for example 0,0,1");
+  if (in.peek() != std::istringstream::traits_type::eof())
+    throw Error(Fault::usage, option + " " + text + ": there is more than X,Y,Z");
+  return p;
+}
+
+/// "X,Y,Z X,Y,Z ...".
+std::vector<Point> parse_stroke(const std::string& text) {
+  std::vector<Point> stroke;
+  std::istringstream in(text);
+  for (std::string point; in >> point;) stroke.push_back(parse_point("--stroke", point));
+  return stroke;
+}
+
+void require_one_guide(const FieldCommand& o) {
+  const int kinds = !o.axis.empty() + o.curvature + (!o.from.empty() || !o.to.empty());
+  if (kinds > 1) throw Error(Fault::usage, "give one of --axis, --curvature, and --from with --to");
+  if (kinds == 0 && o.across) throw Error(Fault::usage, "--across needs --axis, --curvature, or --from with --to");
+  if (kinds == 0 && o.smooth) throw Error(Fault::usage, "--smooth needs --axis, --curvature, or --from with --to");
+}
+
+std::vector<Guide> find_guides(const FieldCommand& o, const TriangleMesh& mesh, const Connection& c) {
+  const double length = o.smooth.value_or(0.05) * bounding_diagonal(mesh);
+  const double weight = 1 / (length * length);
+  const Sense sense = o.across ? Sense::across : Sense::along;
+  std::vector<Guide> guides;
+  if (!o.axis.empty()) guides = axis_guides(c, parse_point("--axis", o.axis), weight, sense);
+  if (o.curvature) {
+    const double mean = bounding_diagonal(mesh) / 4;  // a typical radius: its bends count with the full weight
+    guides = curvature_guides(c, loop_discretisation(c.topology), mesh.points, weight * mean * mean, sense);
+  }
+  if (!o.from.empty() || !o.to.empty())
+    guides = gradient_guides(c, mesh.points, harmonic_function(c, o.from, o.to), weight, sense);
+  for (const std::string& text : o.strokes)
+    for (const Guide& g : stroke_guides(c, mesh.points, parse_stroke(text))) guides.push_back(g);
+  return guides;
+}
+
+struct Counts {
+  int positive = 0, negative = 0, sum = 0;
+};
+
+Counts count(const DirectionField& field) {
+  Counts c;
+  for (const int index : field.index) {
+    c.positive += index > 0;
+    c.negative += index < 0;
+    c.sum += index;
+  }
+  return c;
+}
+
+TriangleMesh with_field(TriangleMesh mesh, const Connection& c, const DirectionField& field) {
+  Attribute direction{direction_attribute, 3, Domain::vertex, {}};
+  Attribute normal{"normal", 3, Domain::vertex, {}};
+  for (const Point& d : field.direction) direction.values.insert(direction.values.end(), d.begin(), d.end());
+  for (const Point& n : c.normal) normal.values.insert(normal.values.end(), n.begin(), n.end());
+  mesh.set(std::move(direction));
+  if (!mesh.find("normal")) mesh.set(std::move(normal));
+  return mesh;
+}
+
+void draw(const FieldCommand& o, const TriangleMesh& mesh, const Connection& c, const DirectionField& field,
+          const Progress& progress) {
+  PictureOptions options;
+  options.width = options.height = o.size;
+  options.azimuth = o.azimuth;
+  options.elevation = o.elevation;
+  options.up = o.up_z ? UpAxis::z : UpAxis::y;
+  write_png(render(hatched(mesh, c, field, {o.spacing * bounding_diagonal(mesh)}), options, progress), o.picture);
+}
+
+void report(const FieldCommand& o, const TriangleMesh& mesh, const DirectionField& field) {
+  const Counts c = count(field);
+  std::vector<std::string> files = o.outputs;
+  if (!o.picture.empty()) files.push_back(o.picture);
+  if (o.json)
+    return print_json({{"shape", o.shape},
+                       {"n", o.n},
+                       {"vertices", mesh.points.size()},
+                       {"singularities", {{"positive", c.positive}, {"negative", c.negative}}},
+                       {"index_sum", json_number(static_cast<double>(c.sum) / o.n)},
+                       {"roughness", json_number(field.roughness)},
+                       {"files", files}});
+  if (o.quiet) return;
+  std::printf("field     %d direction%s at each of %zu vertices\n", o.n, o.n == 1 ? "" : "s", mesh.points.size());
+  std::printf("singular  %d triangles of positive index, %d of negative; sum of the indices %s\n", c.positive,
+              c.negative, number(static_cast<double>(c.sum) / o.n).c_str());
+  for (const std::string& path : files) std::printf("wrote     %s\n", path.c_str());
+}
+
+void run_field(const FieldCommand& o) {
+  for (const std::string& path : o.outputs) check_mesh_path(path);
+  if (!o.picture.empty()) check_picture_path(o.picture);
+  require_one_guide(o);
+  catch_interrupts();
+  ProgressBar bar(o.quiet || o.json ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
+  const TriangleMesh mesh = read_shape(o.shape).mesh;
+  const Connection c = make_connection(make_topology(mesh.points.size(), mesh.triangles), mesh.points);
+  const DirectionField field = direction_field(c, o.n, find_guides(o, mesh, c));
+  for (const std::string& path : o.outputs) write_mesh(with_field(mesh, c, field), path);
+  if (!o.picture.empty()) draw(o, mesh, c, field, bar.progress());
+  bar.clear();
+  report(o, mesh, field);
+}
+
+void add_guide_options(CLI::App* app, FieldCommand& o) {
+  app->add_option("--axis", o.axis, "Follow the projection of this vector")->type_name("X,Y,Z");
+  app->add_flag("--curvature", o.curvature, "Follow the larger principal curvature where there is one");
+  app->add_option("--from", o.from, "Follow the gradient of the harmonic function that is 0 at these vertices")
+      ->delimiter(',')
+      ->type_name("VERTICES");
+  app->add_option("--to", o.to, "... and 1 at these: from hip to foot, from snout to tail")
+      ->delimiter(',')
+      ->type_name("VERTICES");
+  app->add_flag("--across", o.across, "Run across the axis, curvature or gradient instead of along");
+  app->add_option("--smooth", o.smooth, "Length over which wishes are smoothed, diagonals (0.05)")
+      ->check(positive_number())
+      ->type_name("X");
+  app->add_option("--stroke", o.strokes, "Follow this line in space exactly; may be given several times")
+      ->type_name("\"X,Y,Z X,Y,Z ...\"");
+}
+
+void add_picture_options(CLI::App* app, FieldCommand& o) {
+  app->add_option("--picture", o.picture, "Draw the field into a .png file")->type_name("FILE");
+  app->add_option("--picture-size", o.size, "Width and height of the picture in pixels (1024)")
+      ->check(whole_number(1, 32768))
+      ->type_name("N");
+  app->add_option("--spacing", o.spacing, "Distance of the drawn strokes, diagonals (0.02)")
+      ->check(positive_number())
+      ->type_name("X");
+  app->add_option("--azimuth", o.azimuth, "Camera's degrees around the up axis (35)")->type_name("DEG");
+  app->add_option("--elevation", o.elevation, "Camera's degrees above the horizon (14)")->type_name("DEG");
+  app->add_flag("--up-z", o.up_z, "z points up in the picture (default: y)");
+}
+
+}  // namespace
+
+Command add_field(CLI::App& parent) {
+  auto o = std::make_shared<FieldCommand>();
+  CLI::App* app = parent.add_subcommand(
+      "field",
+      "Lay a direction field over a surface\n"
+      "The smoothest one, or one that follows strokes, an axis, the curvature, or the way from one place to another. "
+      "Anisotropic models follow the vertex attribute \"direction\" that it writes; without one they take the "
+      "smoothest "
+      "field of lines.");
+  app->add_option("SHAPE", o->shape, "An OBJ, PLY, STL, OFF, glTF or GLB file, or builtin:NAME?n=VERTICES")
+      ->required()
+      ->type_name("");
+  app->add_option("-o,--output", o->outputs, "Files to write, with the attribute \"direction\": .ply, .vtp")
+      ->delimiter(',')
+      ->type_name("FILES");
+  app->add_option("-n", o->n, "Directions per vertex: 1 vectors, 2 lines (default), 4 crosses")
+      ->check(CLI::IsMember({1, 2, 4}))
+      ->type_name("N");
+  add_guide_options(app, *o);
+  add_picture_options(app, *o);
+  app->add_flag("--json", o->json, "Print the result as JSON");
+  app->add_flag("-q,--quiet", o->quiet, "Print nothing but errors");
+  app->footer(
+      "Examples:\n"
+      "  pelage field cow.obj -o field.vtp --picture field.png\n"
+      "  pelage field cow.obj --axis 0,0,1 --across -o cow.ply\n"
+      "  pelage field horse.ply --from 812 --to 40,77 -n 1 --picture legs.png");
+  return {app, [o] { run_field(*o); }};
+}
+
+}  // namespace pelage

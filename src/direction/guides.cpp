@@ -1,0 +1,207 @@
+#include "direction/guides.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "discretise/curvature.h"
+#include "linalg/conjugate_gradient.h"
+#include "pelage/error.h"
+#include "shape/vectors.h"
+
+namespace pelage {
+
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+Point combination(double s, const Point& a, double t, const Point& b) {
+  return {s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2] + t * b[2]};
+}
+
+Point in_sense(const Connection& c, Index v, const Point& direction, Sense sense) {
+  return sense == Sense::along ? direction : cross(c.normal[at(v)], direction);
+}
+
+Index nearest_vertex(const Connection& c, const std::vector<Point>& points, const Point& place) {
+  Index best = -1;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (Index v = 0; v < c.topology.vertex_count; ++v) {
+    const Point d = difference(points[at(v)], place);
+    if (c.topology.outgoing[at(v)] < 0 || !(dot(d, d) < nearest)) continue;
+    nearest = dot(d, d);
+    best = v;
+  }
+  return best;
+}
+
+double mean_edge(const Connection& c, const std::vector<Point>& points) {
+  double sum = 0;
+  for (Index h = 0; h < std::ssize(c.corner); ++h)
+    sum += length(difference(points[at(c.topology.target(h))], points[at(c.topology.origin(h))]));
+  return c.corner.empty() ? 0 : sum / static_cast<double>(c.corner.size());
+}
+
+/// The direction of the larger eigenvalue of a tensor's tangential part, and the difference of the two.
+struct Principal {
+  Point direction;
+  double difference;
+};
+
+Principal principal(const Connection& c, Index v, const Tensor& t) {
+  const auto times = [&](const Point& a) {
+    return Point{t[0] * a[0] + t[1] * a[1] + t[2] * a[2], t[1] * a[0] + t[3] * a[1] + t[4] * a[2],
+                 t[2] * a[0] + t[4] * a[1] + t[5] * a[2]};
+  };
+  const Point &e = c.east[at(v)], &n = c.north[at(v)];
+  const double ee = dot(e, times(e)), en = dot(e, times(n)), nn = dot(n, times(n));
+  return {c.tangent(v, std::atan2(2 * en, ee - nn) / 2), std::hypot(ee - nn, 2 * en)};
+}
+
+void require_marks(const Connection& c, const std::vector<Index>& low, const std::vector<Index>& high) {
+  if (low.empty() || high.empty()) throw Error(Fault::usage, "mark at least one vertex at each end");
+  for (const auto* list : {&low, &high})
+    for (const Index v : *list)
+      if (v < 0 || v >= c.topology.vertex_count)
+        throw Error(Fault::usage, "vertex " + std::to_string(v) + " is marked; the mesh has " +
+                                      std::to_string(c.topology.vertex_count) + ", counted from 0");
+  for (const Index v : low)
+    if (std::ranges::count(high, v) > 0)
+      throw Error(Fault::usage, "vertex " + std::to_string(v) + " is marked for both ends");
+}
+
+/// The cotangent Laplacian with the marked rows replaced, symmetrically, by those of a unit matrix.
+class MarkedLaplacian {
+ public:
+  MarkedLaplacian(const Connection& c, const std::map<Index, double>& marks) : c_(c), marks_(marks) {}
+
+  Vector solve() {
+    const Index count = c_.topology.vertex_count;
+    rows_.resize(at(count));
+    right_ = Vector::Zero(count);
+    for (Index h = 0; h < std::ssize(c_.corner); ++h) add_edge(h);
+    for (const auto& [v, value] : marks_) {
+      rows_[at(v)] = {{v, 1}};
+      right_[v] = value;
+    }
+    for (Index v = 0; v < count; ++v) rows_[at(v)].try_emplace(v, 0);
+    return solve_spd(matrix(), right_, {.tolerance = 1e-12, .max_iterations = 100000});
+  }
+
+ private:
+  void add_edge(Index h) {
+    const Index a = c_.topology.origin(h), b = c_.topology.target(h);
+    add(a, b, c_.cotangent[at(h)]);
+    add(b, a, c_.cotangent[at(h)]);
+  }
+  void add(Index row, Index column, double weight) {
+    rows_[at(row)][row] += weight;
+    if (const auto mark = marks_.find(column); mark != marks_.end())
+      right_[row] += weight * mark->second;
+    else
+      rows_[at(row)][column] -= weight;
+  }
+  /// A trace of the diagonal keeps pieces without marks, where any constant solves, at 0.
+  SparseMatrix matrix() const {
+    constexpr double trace = 1e-12;
+    auto pattern = std::make_shared<SparsePattern>();
+    SparseMatrix a;
+    pattern->rows = pattern->columns = static_cast<Index>(rows_.size());
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      for (const auto& [j, value] : rows_[i]) {
+        pattern->column.push_back(j);
+        a.value.push_back(at(j) == i ? value * (1 + trace) + (value == 0 ? 1 : 0) : value);
+      }
+      pattern->start.push_back(static_cast<std::int64_t>(pattern->column.size()));
+    }
+    a.pattern = std::move(pattern);
+    return a;
+  }
+
+  const Connection& c_;
+  const std::map<Index, double>& marks_;
+  std::vector<std::map<Index, double>> rows_;
+  Vector right_;
+};
+
+/// The gradient of a linear function on a triangle, times twice the triangle's area.
+Point scaled_gradient(const Triangle& t, const std::vector<Point>& points, const std::vector<double>& f) {
+  const Point normal =
+      unit(cross(difference(points[at(t[1])], points[at(t[0])]), difference(points[at(t[2])], points[at(t[0])])));
+  Point sum{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point opposite = difference(points[at(t[(k + 2) % 3])], points[at(t[(k + 1) % 3])]);
+    sum = combination(1, sum, f[at(t[k])], cross(normal, opposite));
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<Guide> stroke_guides(const Connection& c, const std::vector<Point>& points,
+                                 const std::vector<Point>& stroke) {
+  std::map<Index, Point> direction;
+  const double step = mean_edge(c, points) / 2;
+  for (std::size_t k = 0; k + 1 < stroke.size(); ++k) {
+    const Point d = difference(stroke[k + 1], stroke[k]);
+    const int parts = std::max(1, static_cast<int>(length(d) / std::max(step, 1e-300)));
+    for (int i = 0; i <= parts && length(d) > 0; ++i) {
+      Point& sum = direction[nearest_vertex(c, points, combination(1, stroke[k], double(i) / parts, d))];
+      sum = combination(1, sum, 1, unit(d));
+    }
+  }
+  if (direction.empty()) throw Error(Fault::usage, "a stroke needs two different points");
+  std::vector<Guide> guides;
+  for (const auto& [v, d] : direction)
+    if (v >= 0) guides.push_back({v, d, std::numeric_limits<double>::infinity()});
+  return guides;
+}
+
+std::vector<Guide> axis_guides(const Connection& c, const Point& axis, double weight, Sense sense) {
+  if (!(length(axis) > 0)) throw Error(Fault::usage, "the axis has no direction; give a vector other than 0,0,0");
+  std::vector<Guide> guides;
+  const Point a = unit(axis);
+  for (Index v = 0; v < c.topology.vertex_count; ++v) {
+    const double out = dot(a, c.normal[at(v)]);
+    guides.push_back({v, in_sense(c, v, a, sense), weight * std::max(0.0, 1 - out * out)});
+  }
+  return guides;
+}
+
+std::vector<Guide> curvature_guides(const Connection& c, const Discretisation& d, const std::vector<Point>& control,
+                                    double strength, Sense sense) {
+  const std::vector<Tensor> curvature = vertex_curvature(d, control);
+  std::vector<Guide> guides;
+  for (Index v = 0; v < c.topology.vertex_count; ++v) {
+    const Principal p = principal(c, v, curvature[at(v)]);
+    guides.push_back({v, in_sense(c, v, p.direction, sense), strength * p.difference * p.difference});
+  }
+  return guides;
+}
+
+std::vector<double> harmonic_function(const Connection& c, const std::vector<Index>& low,
+                                      const std::vector<Index>& high) {
+  require_marks(c, low, high);
+  std::map<Index, double> marks;
+  for (const Index v : low) marks[v] = 0;
+  for (const Index v : high) marks[v] = 1;
+  const Vector f = MarkedLaplacian(c, marks).solve();
+  return {f.begin(), f.end()};
+}
+
+std::vector<Guide> gradient_guides(const Connection& c, const std::vector<Point>& points,
+                                   const std::vector<double>& function, double weight, Sense sense) {
+  std::vector<Point> sum(points.size(), Point{});
+  for (const Triangle& t : c.topology.triangles) {
+    const Point g = scaled_gradient(t, points, function);
+    for (const Index v : t) sum[at(v)] = combination(1, sum[at(v)], 1, g);
+  }
+  std::vector<Guide> guides;
+  for (Index v = 0; v < c.topology.vertex_count; ++v)
+    if (length(sum[at(v)]) > 0) guides.push_back({v, in_sense(c, v, sum[at(v)], sense), weight});
+  return guides;
+}
+
+}  // namespace pelage
