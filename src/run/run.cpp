@@ -23,8 +23,8 @@ constexpr double step_tolerance = 1e-2;
 constexpr double step_factor = std::numbers::sqrt2;
 /// A start well inside the stable range of every shipped model.
 constexpr double first_step_fraction = 1.0 / 16;
-/// After halving so often there is no step that helps.
-constexpr int most_halvings = 30;
+/// With steps below this share of the suggested one, fields grow to infinity in finite time: no step leads beyond.
+constexpr double smallest_step_fraction = 1e-9;
 /// The residual lies far below the change of one step, which the warm start would otherwise swallow.
 constexpr double solver_tolerance = 1e-6;
 
@@ -80,7 +80,7 @@ double Run::next_step() const {
 }
 
 const RunSummary& Run::advance(std::int64_t steps) {
-  int halvings = 0;
+  const double smallest_step = smallest_step_fraction * program_.suggested_step;
   for (std::int64_t k = 0; k < steps && !done();) {
     follow_surface(state_.time + next_step());
     operators_->update(state_);
@@ -90,9 +90,8 @@ const RunSummary& Run::advance(std::int64_t steps) {
     summary_.iterations += report.iterations;
     if (report.accepted) {
       accept(report);
-      halvings = 0;
       ++k;
-    } else if (adaptive(program_) && ++halvings <= most_halvings) {
+    } else if (adaptive(program_) && request.dt > smallest_step) {
       ++summary_.rejected;
       step_ = request.dt / 2;
     } else {
@@ -167,7 +166,7 @@ void Run::check_stop() {
 void Run::fail(const StepReport& report) {
   summary_.status = RunStatus::failed;
   summary_.message = "step " + std::to_string(state_.step + 1) + ", time " + number(state_.time) + ": " +
-                     (report.failure.empty() ? "no step is small enough to keep the error" : report.failure) + "; " +
+                     (report.failure.empty() ? "the fields change too fast for the smallest step" : report.failure) + "; " +
                      (program_.step ? "halve the step or leave it to the stepper"
                                     : "check the parameters of the model, or give a smaller --step");
 }
