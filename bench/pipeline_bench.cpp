@@ -33,8 +33,8 @@ int threads(const benchmark::State& state) { return static_cast<int>(state.range
 Program turing_program(std::int64_t vertices) {
   Recipe recipe;
   const double edge = std::sqrt(4 * 3.14159265358979 / static_cast<double>(vertices) * 2 / std::sqrt(3.0));
-  recipe.stage.size = Given<Length>{{10 * edge, false}, {}};
-  return resolve(recipe, sphere(vertices));
+  recipe.stages[0].size = Given<Length>{{10 * edge, false}, {}};
+  return resolve(recipe, sphere(vertices)).front();
 }
 
 void read_and_check(benchmark::State& state, const char* extension) {

@@ -73,8 +73,8 @@ std::string file_name(const std::string& model, const std::string& shape) {
 
 Recipe recipe_of(const std::string& model, const std::string& size) {
   Recipe recipe;
-  recipe.stage.model.value = model;
-  recipe.stage.size = {parse_length(size, {}), {}};
+  recipe.stages[0].model.value = model;
+  recipe.stages[0].size = {parse_length(size, {}), {}};
   return recipe;
 }
 

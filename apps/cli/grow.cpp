@@ -55,11 +55,11 @@ void check_names(const Recipe& recipe) {
 }
 
 /// Loop elements are made for moderate valences; who did not ask for them gets what works.
-void choose_method(Stage& stage, bool asked, const TriangleMesh& mesh, GrowReport& report) {
-  if (asked || stage.method.value != "loop") return;
+void choose_method(Recipe& recipe, bool asked, const TriangleMesh& mesh, GrowReport& report) {
+  if (asked || recipe.stages[0].method.value != "loop") return;
   const Index valence = max_valence(make_topology(mesh.points.size(), mesh.triangles));
   if (valence <= max_loop_valence) return;
-  stage.method.value = "linear";
+  recipe.stages[0].method.value = "linear";
   report.warning("a vertex has " + std::to_string(valence) + " edges, more than the " +
                  std::to_string(max_loop_valence) + " that Loop elements take; using --method linear");
 }
@@ -87,7 +87,8 @@ void restore(Run& run, const std::string& path) {
 }
 
 [[noreturn]] void interrupted(const Run& run, const std::string& checkpoint) {
-  const std::string place = "interrupted at " + std::to_string(run.summary().steps) + " steps, time " +
+  const std::string stage = run.stages().size() > 1 ? "stage " + run.program().name + ", " : "";
+  const std::string place = "interrupted at " + stage + std::to_string(run.summary().steps) + " steps, time " +
                             number(run.summary().time) + "; no mesh or picture was written";
   if (checkpoint.empty()) throw Error(Fault::cancelled, place + "; with --checkpoint FILE it could go on from here");
   throw Error(Fault::cancelled, place + "; go on with --resume " + checkpoint);
@@ -158,15 +159,15 @@ void grow(const GrowOptions& options) {
   progress("reading " + recipe.shape, 0);
   ShapeFile file = read_shape(recipe.shape);
   report.shape(recipe.shape, file);
-  const bool asked_for_method = options.method || recipe.stage.method.where.line > 0;
-  choose_method(recipe.stage, asked_for_method, file.mesh, report);
+  const bool asked_for_method = options.method || recipe.stages[0].method.where.line > 0;
+  choose_method(recipe, asked_for_method, file.mesh, report);
 
   Run run = interruptible("before the growth began; nothing was written",
                           [&] { return Run(resolve(recipe, std::move(file.mesh)), progress); });
   warn_about_step(run, report);
   warn_about_anisotropy(run, report);
   restore(run, options.resume);
-  report.pattern(recipe.stage.model.value, run);
+  report.pattern(run);
   const Stopwatch growth;
   grow_to_the_end(run, options, progress);
   report.growth(run, growth.seconds());

@@ -38,6 +38,12 @@ void add_pattern_options(CLI::App& app, GrowOptions& o) {
       ->type_name("NAME|FILE")
       ->group(group);
   add_settings_option(app, o.settings)->group(group);
+  app.add_option("--param-map", o.maps,
+                 "Parameter, or size, that differs from place to place: a formula of x, y, z, nx, k1, attribute(NAME), "
+                 "..., or attribute:NAME for a vertex attribute of the shape; a size is a factor on --size")
+      ->type_name("PARAM=FORMULA")
+      ->allow_extra_args(false)
+      ->group(group);
   app.add_option("--size", o.size,
                  "Spacing of the pattern: a fraction of the shape's diagonal (default: 0.04) or a length: 4mm, 2cm, "
                  "0.1m, 3in, or 1.5u in units of the file")
@@ -167,24 +173,84 @@ void override(const std::optional<std::string>& given, Given<std::string>& targe
   if (given) target = {*given, {}};
 }
 
+/// The stage that "STAGE.NAME" speaks of, with "NAME" left; of a recipe with a single stage also without "STAGE.".
+Stage& stage_of(std::vector<Stage>& stages, std::string& name, const std::string& option) {
+  std::vector<std::string> names;
+  for (const Stage& stage : stages) names.push_back(stage.name.value);
+  const std::size_t dot = name.find('.');
+  if (dot == std::string::npos) {
+    if (stages.size() == 1) return stages[0];
+    throw Error(Fault::usage, option + ": the recipe has several stages; write STAGE." + name + "=..., with one of " +
+                                  join_names(names));
+  }
+  const std::string stage = name.substr(0, dot);
+  name.erase(0, dot + 1);
+  for (std::size_t k = 0; k < stages.size(); ++k)
+    if (names[k] == stage || "stage" + std::to_string(k + 1) == stage) return stages[k];
+  throw Error(Fault::usage, option + ": " + unknown_name("stage", stage, names));
+}
+
 /// A setting replaces that of the recipe.
 void override_parameter(std::vector<Stage::Setting>& settings, const Stage::Setting& given) {
   std::erase_if(settings, [&](const Stage::Setting& s) { return s.name == given.name; });
   settings.push_back(given);
 }
 
-void apply(const GrowOptions& o, Stage& stage) {
-  override(o.model, stage.model);
-  for (const std::string& text : o.settings) override_parameter(stage.parameters, parse_setting(text));
-  if (o.size) stage.size = {parse_length(*o.size, {}), {}};
-  override(o.method, stage.method);
-  override(o.stepper, stage.stepper);
-  override(o.step, stage.step);
-  override(o.until, stage.until);
-  override(o.steps, stage.steps);
-  override(o.stationary, stage.stationary);
-  override(o.seed, stage.seed);
-  stage.interpolate |= o.interpolate;
+/// --set [STAGE.]PARAM=VALUE, or [STAGE.]size=LENGTH.
+void apply_setting(const std::string& text, std::vector<Stage>& stages) {
+  const std::size_t equals = std::min(text.find('='), text.size());
+  std::string name = text.substr(0, equals);
+  Stage& stage = stage_of(stages, name, "--set " + text);
+  if (name == "size" && equals < text.size())
+    stage.size = {parse_length(text.substr(equals + 1), {}), {}};
+  else
+    override_parameter(stage.parameters, parse_setting(name + text.substr(equals)));
+}
+
+/// --param-map [STAGE.]PARAM=FORMULA, or =attribute:NAME.
+void apply_map(const std::string& text, std::vector<Stage>& stages) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+    throw Error(Fault::usage, "--param-map " + text + ": expected PARAM=FORMULA, for example beta=attribute:age");
+  std::string name = text.substr(0, equals), formula = text.substr(equals + 1);
+  const std::string prefix = "attribute:";
+  if (formula.starts_with(prefix)) formula = "attribute(" + formula.substr(prefix.size()) + ")";
+  Stage& stage = stage_of(stages, name, "--param-map " + text);
+  if (name == "size")
+    stage.size_map = {formula, {"--param-map"}};
+  else
+    override_parameter(stage.parameters, Stage::Setting{name, 0, Location{"--param-map"}, formula});
+}
+
+/// The size of the first stage; those of the others keep their proportion to it.
+void apply_size(const Length& size, std::vector<Stage>& stages) {
+  const Length before = stages[0].size ? stages[0].size->value : Length{default_size, true};
+  for (Stage& stage : stages) {
+    const Length own = stage.size ? stage.size->value : Length{default_size, true};
+    if (own.relative != before.relative)
+      throw Error(Fault::usage,
+                  "--size: the stages of the recipe have sizes of different kinds; use --set STAGE.size=");
+    stage.size = {{own.value / before.value * size.value, size.relative}, {}};
+  }
+}
+
+void apply(const GrowOptions& o, std::vector<Stage>& stages) {
+  if (o.model && stages.size() > 1)
+    throw Error(Fault::usage, "--model: the recipe has several stages; give either a recipe or a model");
+  override(o.model, stages[0].model);
+  if (o.size) apply_size(parse_length(*o.size, {}), stages);
+  for (const std::string& text : o.settings) apply_setting(text, stages);
+  for (const std::string& text : o.maps) apply_map(text, stages);
+  for (Stage& stage : stages) {
+    override(o.method, stage.method);
+    override(o.stepper, stage.stepper);
+    override(o.step, stage.step);
+    override(o.until, stage.until);
+    override(o.steps, stage.steps);
+    override(o.stationary, stage.stationary);
+    override(o.seed, stage.seed);
+    stage.interpolate |= o.interpolate;
+  }
 }
 
 void apply(const GrowOptions& o, Motion& motion) {
@@ -228,7 +294,7 @@ Recipe make_recipe(const GrowOptions& options) {
   if (!options.shape.empty()) recipe.shape = options.shape;
   if (recipe.shape.empty())
     throw Error(Fault::usage, "no shape to grow on; name a file or a built-in one, for example builtin:animal");
-  apply(options, recipe.stage);
+  apply(options, recipe.stages);
   apply(options, recipe.motion);
   apply(options, recipe.look);
   return recipe;

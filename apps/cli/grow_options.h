@@ -15,7 +15,8 @@ namespace pelage {
 struct GrowOptions {
   std::string shape;
   std::optional<std::string> recipe, model, size, method, stepper, species, ramp;
-  std::vector<std::string> settings;  ///< "PARAM=VALUE"
+  std::vector<std::string> settings;  ///< "PARAM=VALUE" or "STAGE.PARAM=VALUE"
+  std::vector<std::string> maps;      ///< "PARAM=FORMULA", likewise
   std::optional<double> step, until, stationary, growth;
   std::optional<std::int64_t> steps, every;
   std::optional<std::uint64_t> seed;

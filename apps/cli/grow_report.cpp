@@ -1,7 +1,9 @@
 #include "grow_report.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 
 #include "text.h"
 
@@ -72,25 +74,32 @@ void GrowReport::shape(const std::string& name, const ShapeFile& file) {
                     {"findings", json_findings(file.findings)}};
 }
 
-void GrowReport::pattern(const std::string& model, const Run& run) {
-  const Program& p = run.program();
+void GrowReport::pattern(const Run& run) {
+  const Program& first = run.program();
   const Topology& topology = run.operators().discretisation().topology;
-  const double density = p.size / prevailing_edge(topology.triangles, run.operators().control());
-  const double relative = p.size / bounding_diagonal(p.shape);
-  line("pattern",
-       model + " at a wavelength of " + number(p.size) + " world units (" + brief(relative) + " of the diagonal)");
-  line("mesh", refinement(run.operators().levels(), p.method == "loop") + ": " +
+  const double diagonal = bounding_diagonal(first.shape);
+  double finest = std::numeric_limits<double>::infinity();
+  json_["stages"] = Json::array();
+  for (const Program& p : run.stages()) {
+    finest = std::min(finest, p.size);
+    const std::string name = run.stages().size() > 1 ? p.name + ": " : "";
+    line("pattern", name + p.model_name + " at a wavelength of " + number(p.size) + " world units (" +
+                        brief(p.size / diagonal) + " of the diagonal)");
+    Json parameters = Json::object();
+    for (const ParameterSource& parameter : p.model.parameters()) parameters[parameter.name] = parameter.value;
+    json_["stages"].push_back({{"name", p.name},
+                               {"model", p.model_name},
+                               {"parameters", parameters},
+                               {"size", p.size},
+                               {"size_of_diagonal", p.size / diagonal},
+                               {"length_unit", p.length_unit},
+                               {"stepper", p.stepper},
+                               {"seed", p.seed}});
+  }
+  const double density = finest / prevailing_edge(topology.triangles, run.operators().control());
+  line("mesh", refinement(run.operators().levels(), first.method == "loop") + ": " +
                    counted(topology.vertex_count, "vertex") + ", " + brief(density) + " per wavelength");
-  json_["model"] = model;
-  Json parameters = Json::object();
-  for (const ParameterSource& parameter : p.model.parameters()) parameters[parameter.name] = parameter.value;
-  json_["parameters"] = parameters;
-  json_["size"] = p.size;
-  json_["size_of_diagonal"] = relative;
-  json_["length_unit"] = p.length_unit;
-  json_["method"] = p.method;
-  json_["stepper"] = p.stepper;
-  json_["seed"] = p.seed;
+  json_["method"] = first.method;
   json_["refinements"] = run.operators().levels();
   json_["control_vertices"] = topology.vertex_count;
   json_["vertices_per_wavelength"] = density;
@@ -108,19 +117,25 @@ void GrowReport::surface(const MovingSurface& surface) {
 }
 
 void GrowReport::growth(const Run& run, double seconds) {
-  const RunSummary& s = run.summary();
-  line("growth", counted(static_cast<std::size_t>(s.steps), "step") + " of " + run.program().stepper + " to time " +
-                     number(s.time) + " in " + duration(seconds) + "; " + stop_reason(s.status));
-  json_["growth"] = {{"status", status_name(s.status)},
-                     {"steps", s.steps},
-                     {"time", s.time},
-                     {"last_step", s.step},
-                     {"change", s.change},
-                     {"solver_iterations", s.iterations},
-                     {"rejected_steps", s.rejected},
-                     {"seconds", seconds},
-                     {"minimum", json_number(s.minimum)},
-                     {"maximum", json_number(s.maximum)}};
+  for (std::size_t k = 0; k < run.finished().size(); ++k) grown(run, k, run.finished()[k].summary);
+  grown(run, run.stage(), run.summary());
+  line("growth", "in " + duration(seconds));
+  json_["growth_seconds"] = seconds;
+}
+
+void GrowReport::grown(const Run& run, std::size_t stage, const RunSummary& s) {
+  const Program& p = run.stages()[stage];
+  line("grown", (run.stages().size() > 1 ? p.name + ": " : "") + counted(static_cast<std::size_t>(s.steps), "step") +
+                    " of " + p.stepper + " to time " + number(s.time) + "; " + stop_reason(s.status));
+  json_["stages"][stage]["growth"] = {{"status", status_name(s.status)},
+                                      {"steps", s.steps},
+                                      {"time", s.time},
+                                      {"last_step", s.step},
+                                      {"change", s.change},
+                                      {"solver_iterations", s.iterations},
+                                      {"rejected_steps", s.rejected},
+                                      {"minimum", json_number(s.minimum)},
+                                      {"maximum", json_number(s.maximum)}};
 }
 
 void GrowReport::file(const std::string& path) {

@@ -17,13 +17,14 @@ class GrowReport {
 
   void shape(const std::string& name, const ShapeFile& file);
   void warning(const std::string& text);
-  void pattern(const std::string& model, const Run& run);
+  void pattern(const Run& run);
   void surface(const MovingSurface& surface);
   void growth(const Run& run, double seconds);
   void file(const std::string& path);
   void end(double seconds);
 
  private:
+  void grown(const Run& run, std::size_t stage, const RunSummary& summary);
   void line(const std::string& label, const std::string& text);
 
   Form form_;

@@ -47,8 +47,8 @@ Image four_panels(const Recipe& recipe, const TriangleMesh& noisy, const Triangl
   return side_by_side(
       {panel(bare(noisy), "noisy", "the shape as given"),
        panel(bare(faired.mesh), "faired", method + ", " + std::to_string(faired.report.steps) + " steps"),
-       panel(coat_at_rest(recipe, noisy, progress), "grown on the noisy shape", recipe.stage.model.value),
-       panel(coupled, "grown while faired", recipe.stage.model.value + ", " + recipe.motion.mode.value)});
+       panel(coat_at_rest(recipe, noisy, progress), "grown on the noisy shape", recipe.stages[0].model.value),
+       panel(coupled, "grown while faired", recipe.stages[0].model.value + ", " + recipe.motion.mode.value)});
 }
 
 }  // namespace pelage

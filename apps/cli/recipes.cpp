@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/suggest.h"
 #include "catalog/resolve.h"
 #include "command.h"
 #include "table.h"
@@ -12,10 +13,12 @@ namespace pelage {
 namespace {
 
 void print_list(const std::vector<std::string>& names) {
-  std::vector<std::vector<std::string>> rows = {{"NAME", "MODEL", "RAMP", "SUMMARY"}};
+  std::vector<std::vector<std::string>> rows = {{"NAME", "MODELS", "SUMMARY"}};
   for (const std::string& name : names) {
     const Recipe r = load_recipe(name);
-    rows.push_back({name, r.stage.model.value, r.look.ramp.value, r.summary});
+    std::vector<std::string> models;
+    for (const Stage& stage : r.stages) models.push_back(stage.model.value);
+    rows.push_back({name, join_names(models), r.summary});
   }
   std::fputs(table(rows).c_str(), stdout);
 }
@@ -24,11 +27,9 @@ void print_list_as_json(const std::vector<std::string>& names) {
   Json list = Json::array();
   for (const std::string& name : names) {
     const Recipe r = load_recipe(name);
-    list.push_back({{"name", name},
-                    {"summary", r.summary},
-                    {"shape", r.shape},
-                    {"model", r.stage.model.value},
-                    {"ramp", r.look.ramp.value}});
+    Json stages = Json::array();
+    for (const Stage& stage : r.stages) stages.push_back({{"name", stage.name.value}, {"model", stage.model.value}});
+    list.push_back({{"name", name}, {"summary", r.summary}, {"shape", r.shape}, {"stages", stages}});
   }
   print_json(list);
 }

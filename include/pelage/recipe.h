@@ -27,17 +27,33 @@ struct Length {
 /// of the file for the metric ones ("u": the file's own unit, whatever it is). Error(Fault::usage) otherwise.
 Length parse_length(const std::string& text, const Location& where);
 
-/// One run of a model to its stop.
+/// One run of a model to its stop. Formulas know the place (x, nx, k1, attribute(NAME), ...), the parameters of the
+/// model, the fields of earlier stages as STAGE.SPECIES, and `points` where it is set. docs/recipes.md.
 struct Stage {
+  Given<std::string> name{"stage1", {}};   ///< as later stages and the look refer to it; default: stage1, stage2, ...
   Given<std::string> model{"turing", {}};  ///< built-in name, "name:variant", or path of a .toml file
   struct Setting {
     std::string name;
     double value = 0;
     Location where;
+    std::string formula = {};  ///< instead of the value, for a parameter that differs from place to place
   };
-  std::vector<Setting> parameters;        ///< of the model, instead of its defaults
-  std::optional<Given<Length>> size;      ///< wanted wavelength of the pattern; default: 4 % of the diagonal
-  Given<std::string> method{"loop", {}};  ///< discretisation
+  std::vector<Setting> parameters;  ///< of the model, instead of its defaults
+  struct SpeciesFormula {
+    std::string species;
+    Given<std::string> formula;
+  };
+  std::optional<Given<std::string>> from;   ///< start from the species of an earlier stage that have the same names
+  std::vector<SpeciesFormula> initial;      ///< initial concentrations instead of the model's or the earlier stage's
+  std::optional<Given<std::string>> mask;   ///< formula: inside where it is not 0
+  Given<std::string> inside{"frozen", {}};  ///< "frozen": concentrations stay what they are, and diffuse outward;
+                                            ///< "excluded": nothing reacts or diffuses inside, nor through the border
+  std::vector<SpeciesFormula> pin;          ///< concentrations to which the inside of the mask is set at the start
+  std::optional<Given<Length>> points;      ///< spacing of random points; the formula `points` is the distance to the
+                                            ///< nearest in spacings
+  std::optional<Given<Length>> size;        ///< wanted wavelength of the pattern; default: 4 % of the diagonal
+  std::optional<Given<std::string>> size_map;  ///< formula of the place: factor on the size
+  Given<std::string> method{"loop", {}};       ///< discretisation
   Given<std::string> stepper{"sbdf2", {}};
   std::optional<double> step;         ///< fixed step [model time]; default: adaptive, or the stepper's safe step
   std::optional<double> until;        ///< stop at this model time; default: the model's suggestion
@@ -57,11 +73,22 @@ struct Motion {
   std::int64_t every = 10;                 ///< the surface and its matrices are renewed every so many time steps
 };
 
+/// A coat of paint over those below it. Formulas know what those of stages know, and the species of the last stage by
+/// their own names.
+struct Layer {
+  std::optional<Given<std::string>> color;  ///< "#rrggbb"; or
+  std::optional<Given<std::string>> ramp;   ///< the colours of a ramp, at a value
+  Given<std::string> value;                 ///< formula; on the ramp from low to high
+  double low = 0, high = 1;
+  std::optional<Given<std::string>> opacity;  ///< formula, 0..1; default 1
+};
+
 /// How fields become colours and geometry.
 struct Look {
   std::optional<Given<std::string>> species;  ///< which one is shown; default: the last
   Given<std::string> ramp{"tawny", {}};
   bool invert = false;        ///< exchange the ends of the ramp
+  std::vector<Layer> layers;  ///< painted over it, the first one lowest
   bool keep_shape = false;    ///< the input's flat triangles instead of the limit surface
   std::optional<int> detail;  ///< extra splits of every triangle into four; default: as the pattern needs
 };
@@ -69,8 +96,8 @@ struct Look {
 struct Recipe {
   std::string name;
   std::string summary;
-  std::string shape;  ///< used when the command names none
-  Stage stage;
+  std::string shape;             ///< used when the command names none
+  std::vector<Stage> stages{1};  ///< at least one
   Motion motion;
   Look look;
 };

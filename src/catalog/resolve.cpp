@@ -1,16 +1,24 @@
 #include "catalog/resolve.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "base/number.h"
 #include "base/suggest.h"
 #include "catalog/embedded.h"
 #include "catalog/models.h"
+#include "catalog/stage_model.h"
+#include "look/layers.h"
 #include "look/ramp.h"
+#include "react/place_formula.h"
+#include "react/place_values.h"
 #include "react/stability.h"
-#include "run/place_fields.h"
+#include "run/random_points.h"
+#include "shape/normals.h"
 #include "time/stepper.h"
 
 namespace pelage {
@@ -25,29 +33,27 @@ void require_known(const Given<std::string>& name, const std::string& kind, cons
   throw Error(Fault::usage, unknown_name(kind, name.value, known), name.where);
 }
 
-Model resolve_model(const Stage& stage) {
+Overrides numbers_of(const Stage& stage) {
   Overrides overrides;
-  for (const Stage::Setting& s : stage.parameters) overrides[s.name] = Override(s.value, s.where);
-  return compile(load_model(stage.model.value), overrides);
+  for (const Stage::Setting& s : stage.parameters)
+    if (s.formula.empty()) overrides[s.name] = Override(s.value, s.where);
+  return overrides;
 }
 
-void require_species(const Look& look, const Model& model) {
-  if (!look.species) return;
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < model.species_count(); ++i) names.push_back(model.species_name(i));
-  require_known(*look.species, "species", names);
-}
-
-/// A trial on no samples finds attributes that the shape does not have. (A stand-in without triangles has none.)
-void require_attributes(const Model& model, const TriangleMesh& shape) {
-  if (shape.triangles.empty()) return;
+/// A trial on no samples finds attributes and fields that do not exist. (A stand-in without triangles has no
+/// attributes, and then only fields are looked for.)
+void require_places(const Model& model, const TriangleMesh& shape, const std::vector<std::string>& more) {
   Places places;
-  for (const auto& [name, values] : scalar_attributes(shape)) places.attributes[name] = {};
+  for (const auto& [name, values] : scalar_attributes(shape.attributes)) places.attributes[name] = {};
+  for (const std::string& name : more) places.attributes[name] = {};
+  if (shape.triangles.empty())
+    for (const Symbol& s : place_symbols(model))
+      if (s.kind == Symbol::Kind::attribute && s.name.find('.') == std::string::npos) places.attributes[s.name] = {};
   Kinetics(model, places, 0);
 }
 
-double world_size(const Stage& stage, double diagonal) {
-  const Length length = stage.size ? stage.size->value : Length{default_size, true};
+double world_length(const std::optional<Given<Length>>& given, double diagonal) {
+  const Length length = given ? given->value : Length{default_size, true};
   return length.relative ? length.value * diagonal : length.value;
 }
 
@@ -73,28 +79,83 @@ SurfaceMotion resolve_motion(const Motion& motion, double until) {
 
 constexpr std::string_view recipe_folder = "recipes/", extension = ".toml";
 
-}  // namespace
+/// Names of all fields that these stages leave behind.
+std::vector<std::string> earlier_fields(const std::vector<Program>& stages) {
+  std::vector<std::string> names;
+  for (const Program& stage : stages)
+    for (std::size_t i = 0; i < stage.model.species_count(); ++i)
+      names.push_back(field_name(stage.name, stage.model.species_name(i)));
+  return names;
+}
 
-Program resolve(const Recipe& recipe, TriangleMesh shape) {
-  const Stage& stage = recipe.stage;
+void require_stage_names(const std::vector<Stage>& stages) {
+  for (std::size_t k = 0; k < stages.size(); ++k) {
+    const Given<std::string>& name = stages[k].name;
+    const auto is_part = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+    if (!name.value.empty() &&
+        (std::isdigit(static_cast<unsigned char>(name.value[0])) || !std::ranges::all_of(name.value, is_part)))
+      throw Error(Fault::usage, "\"" + name.value + "\" is not a name; use letters, digits and _", name.where);
+    for (std::size_t other = 0; other < k; ++other)
+      if (stages[other].name.value == name.value)
+        throw Error(Fault::usage, "two stages are called \"" + name.value + "\"", name.where);
+  }
+}
+
+/// All stages live on one mesh.
+void require_same_method(const Stage& first, const Stage& stage) {
+  if (stage.method.value != first.method.value && stage.method.where.line > 0)
+    throw Error(Fault::usage, "all stages have the method of the first, \"" + first.method.value + "\"",
+                stage.method.where);
+}
+
+/// The smallest factor of a size map over the vertices of the shape; 1 where the map depends on what is not known yet.
+double smallest_factor(const Stage& stage, const TriangleMesh& shape) {
+  if (!stage.size_map || shape.triangles.empty()) return 1;
+  const Formula map{stage.size_map->value, stage.size_map->where};
+  const std::vector<Point> normals = vertex_normals(shape.triangles, shape.points);
+  const VertexAttributes attributes = scalar_attributes(shape.attributes);
+  Places places{.positions = shape.points, .normals = normals};
+  for (const auto& [name, values] : attributes) places.attributes[name] = values;
+  const PlaceFormula formula(map);
+  for (const Symbol& s : formula.symbols())
+    if (s.kind == Symbol::Kind::curvature || s.name.find('.') != std::string::npos) return 1;
+  const double smallest = std::ranges::min(formula.at(places, stage.seed));
+  if (!(smallest > 0))
+    throw Error(Fault::usage, "the map of the size is " + number(smallest) + " somewhere; it must be greater than 0",
+                map.where);
+  return smallest;
+}
+
+Program resolve_stage(const Recipe& recipe, std::size_t number, const TriangleMesh& shape,
+                      const std::vector<Program>& before) {
+  const Stage &stage = recipe.stages[number], &first = recipe.stages[0];
   require_known(stage.method, "method", methods);
   require_known(stage.stepper, "stepper", stepper_names());
-  require_known(recipe.look.ramp, "ramp", ramp_names());
+  require_known(stage.inside, "way to treat the inside of a mask", {"frozen", "excluded"});
+  require_same_method(first, stage);
   Program p;
-  p.model = resolve_model(stage);
-  require_species(recipe.look, p.model);
-  require_attributes(p.model, shape);
+  p.name = stage.name.value;
+  p.model_name = stage.model.value;
+  std::vector<std::string> known = earlier_fields(before);
+  const ModelSource source = load_model(stage.model.value);
+  const Model plain =
+      compile(source, numbers_of(stage));  // faults of the model itself are found before those of the stage
+  p.model = compile(stage_model(source, stage, known), numbers_of(stage));
+  if (stage.points) known.push_back(points_attribute);
+  require_places(p.model, shape, known);
   if (stage.stepper.value == "paper" && !p.model.coupled().empty())
     throw Error(Fault::usage,
                 "the stepper \"paper\" cannot grow \"" + p.model.name() +
                     "\", whose species are coupled by lap(); take \"sbdf2\"",
                 stage.stepper.where);
-  p.method = stage.method.value;
+  p.method = first.method.value;
   p.stepper = stage.stepper.value;
   const double diagonal = bounding_diagonal(shape);
   if (!(diagonal > 0)) throw Error(Fault::input, "the shape has no extent: all its vertices are at one place");
-  p.size = world_size(stage, diagonal);
-  p.length_unit = p.size / model_wavelength(p.model);
+  p.size = world_length(stage.size, diagonal);
+  p.length_unit = p.size / model_wavelength(plain);
+  p.excluded = stage.inside.value == "excluded";
+  if (stage.points) p.points = world_length(stage.points, diagonal);
   const Suggestions& suggested = p.model.source().suggestions;
   p.step = stage.step;
   p.suggested_step = suggested.step.value_or(1);
@@ -103,10 +164,44 @@ Program resolve(const Recipe& recipe, TriangleMesh shape) {
   p.steps = stage.steps;
   p.stationary = stage.stationary.value_or(suggested.tolerance.value_or(0));
   p.seed = stage.seed;
-  p.interpolate = stage.interpolate;
-  p.motion = resolve_motion(recipe.motion, p.until);
-  p.shape = std::move(shape);
+  for (const Stage& s : recipe.stages) p.interpolate |= s.interpolate;
   return p;
+}
+
+/// Species, ramp, layers.
+void require_look(const Look& look, const std::vector<Program>& stages, const TriangleMesh& shape) {
+  require_known(look.ramp, "ramp", ramp_names());
+  std::vector<std::string> species;
+  const Model& last = stages.back().model;
+  for (std::size_t i = 0; i < last.species_count(); ++i) species.push_back(last.species_name(i));
+  const std::vector<std::string> fields = earlier_fields(stages);
+  Places places;
+  for (const auto& [name, values] : scalar_attributes(shape.attributes)) places.attributes[name] = {};
+  for (const std::string& name : species) places.attributes[name] = {};
+  for (const std::string& name : fields) places.attributes[name] = {};
+  std::vector<double> no_colors;
+  if (!shape.triangles.empty() || look.layers.empty()) paint(look.layers, species, places, no_colors);
+  species.insert(species.end(), fields.begin(), fields.end());
+  if (look.species) require_known(*look.species, "species", species);
+}
+
+}  // namespace
+
+std::vector<Program> resolve(const Recipe& recipe, TriangleMesh shape) {
+  require_stage_names(recipe.stages);
+  std::vector<Program> stages;
+  double edge = std::numeric_limits<double>::infinity(), until = 0;
+  for (std::size_t k = 0; k < recipe.stages.size(); ++k) {
+    stages.push_back(resolve_stage(recipe, k, shape, stages));
+    edge = std::min(edge, stages[k].size / stages[k].resolution * smallest_factor(recipe.stages[k], shape));
+    until += stages[k].until;
+  }
+  require_look(recipe.look, stages, shape);
+  const SurfaceMotion motion = resolve_motion(recipe.motion, until);
+  for (Program& p : stages) p.motion = motion;
+  stages[0].edge = edge / std::exp(std::max(0.0, motion.growth * until));
+  stages[0].shape = std::move(shape);
+  return stages;
 }
 
 std::vector<std::string> recipe_names() {

@@ -9,8 +9,9 @@ namespace pelage {
 /// Default of Stage::size, as a fraction of the diagonal.
 inline constexpr double default_size = 0.04;
 
-/// Error(Fault::usage), located in the recipe, for anything unknown; Error(Fault::input) for a shape without extent.
-Program resolve(const Recipe& recipe, TriangleMesh shape);
+/// The stages; the first one has the shape. Error(Fault::usage), located in the recipe, for anything unknown;
+/// Error(Fault::input) for a shape without extent.
+std::vector<Program> resolve(const Recipe& recipe, TriangleMesh shape);
 
 /// The built-in recipe of that name, or the one in the file when the name ends in .toml.
 Recipe load_recipe(const std::string& name_or_path);

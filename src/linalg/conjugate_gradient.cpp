@@ -14,7 +14,7 @@ namespace {
 
 using Sums = Eigen::Array2d;
 
-/// x += alpha p, r -= alpha q; returns (r . r, r . D^-1 r): one pass over memory instead of four.
+/// x += alpha p, r -= alpha q; returns (r . r, r . D^-1 r), where D^-1 is not 0: one pass over memory instead of four.
 Sums update(double alpha, const Vector& p, const Vector& q, const Vector& inverse_diagonal, Vector& x, Vector& r) {
   return ordered_sum(static_cast<std::size_t>(x.size()), Sums{0, 0}, [&](std::size_t begin, std::size_t end) {
     double rr = 0, rz = 0;
@@ -22,7 +22,7 @@ Sums update(double alpha, const Vector& p, const Vector& q, const Vector& invers
       x[i] += alpha * p[i];
       r[i] -= alpha * q[i];
       const double square = r[i] * r[i];
-      rr += square;
+      rr += inverse_diagonal[i] != 0 ? square : 0;
       rz += square * inverse_diagonal[i];
     }
     return Sums{rr, rz};

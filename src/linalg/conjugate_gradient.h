@@ -21,7 +21,8 @@ struct ConjugateGradientOptions {
 /// Work vectors, kept between solves of the same size.
 class ConjugateGradient {
  public:
-  /// Solves A x = b with Jacobi preconditioning; x holds the first guess and the result.
+  /// Solves A x = b with Jacobi preconditioning; x holds the first guess and the result. Unknowns whose inverse
+  /// diagonal is 0 are held: they keep the value of the guess, and their equations do not count.
   SolveReport solve(const SparseMatrix& a, const Vector& inverse_diagonal, const Vector& b, Vector& x,
                     const ConjugateGradientOptions& options = {});
 

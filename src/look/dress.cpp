@@ -5,9 +5,11 @@
 
 #include "base/parallel.h"
 #include "base/suggest.h"
+#include "look/layers.h"
 #include "look/ramp.h"
 #include "shape/normals.h"
 #include "shape/refine.h"
+#include "shape/scalar_attributes.h"
 #include "shape/vectors.h"
 
 namespace pelage {
@@ -20,6 +22,8 @@ constexpr double edges_per_wavelength = 16;
 constexpr std::size_t most_triangles = 1'500'000;
 /// The ends of the ramp are quantiles, so that a few extreme samples do not bleach the rest.
 constexpr double ramp_quantile = 0.005;
+/// What the colours of the shape are called in the coat.
+constexpr const char* input_color = "input_color";
 
 /// Corner values of the four children of every triangle: corners keep theirs, midpoints get the mean.
 std::vector<double> split_corners(const std::vector<double>& values, std::size_t components) {
@@ -66,8 +70,8 @@ void refine(Tessellation& t, bool loop) {
 std::vector<Attribute> kept_attributes(std::vector<Attribute> attributes, const std::vector<std::string>& species) {
   std::vector<Attribute> kept;
   for (Attribute& a : attributes) {
-    if (a.name == "normal") continue;               // made anew
-    if (a.name == "color") a.name = "input_color";  // makes room for the coat
+    if (a.name == "normal") continue;             // made anew
+    if (a.name == "color") a.name = input_color;  // makes room for the coat
     if (std::find(species.begin(), species.end(), a.name) == species.end()) kept.push_back(std::move(a));
   }
   return kept;
@@ -149,6 +153,25 @@ std::size_t shown_species(const std::vector<std::string>& species, const Look& l
   return static_cast<std::size_t>(found - species.begin());
 }
 
+/// "STAGE.SPECIES" as file formats like it.
+std::string attribute_name(std::string field) {
+  std::ranges::replace(field, '.', '_');
+  return field;
+}
+
+void paint_layers(const Look& look, const std::vector<std::string>& species, const Tessellation& t,
+                  const std::vector<Point>& positions, const std::vector<Point>& normals, std::vector<double>& color) {
+  if (look.layers.empty()) return;
+  Places places{.positions = positions, .normals = normals};
+  std::vector<Attribute> given = t.attributes;
+  for (Attribute& a : given)
+    if (a.name == input_color) a.name = "color";  // as formulas of stages know it
+  const VertexAttributes attributes = scalar_attributes(given);
+  for (const auto& [name, values] : attributes) places.attributes[name] = values;
+  for (std::size_t i = 0; i < species.size(); ++i) places.attributes[species[i]] = t.fields[i];
+  paint(look.layers, species, places, color);
+}
+
 }  // namespace
 
 TriangleMesh dress(CoatFields fields, const Look& look) {
@@ -174,9 +197,11 @@ TriangleMesh dress(CoatFields fields, const Look& look) {
   }
   mesh.triangles = std::move(t.topology.triangles);
   mesh.set({"normal", 3, Domain::vertex, flattened(normals)});
-  mesh.set({"color", 3, Domain::vertex, colours(t.fields[shown], look)});
+  std::vector<double> color = colours(t.fields[shown], look);
+  paint_layers(look, fields.species, t, mesh.points, normals, color);
+  mesh.set({"color", 3, Domain::vertex, std::move(color)});
   for (std::size_t i = 0; i < t.fields.size(); ++i)
-    mesh.set({fields.species[i], 1, Domain::vertex, std::move(t.fields[i])});
+    mesh.set({attribute_name(fields.species[i]), 1, Domain::vertex, std::move(t.fields[i])});
   for (Attribute& a : t.attributes) mesh.set(std::move(a));
   return mesh;
 }

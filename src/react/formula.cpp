@@ -214,6 +214,11 @@ NodeId Parser::variable(const Token& name) {
     const NodeId k1 = symbol(*built_in_symbol("k1")), k2 = symbol(*built_in_symbol("k2"));
     return make(Op::multiply, graph_.constant(0.5), make(Op::add, k1, k2));
   }
+  if (name.text.find('.') != std::string_view::npos) {  // STAGE.SPECIES: a field that is finished
+    Symbol field{Symbol::Kind::attribute};
+    field.name = name.text;
+    return symbol(field);
+  }
   unknown(name, false);
 }
 

@@ -56,7 +56,10 @@ class KineticsBuilder {
     kinetics_.split_ = program(join(e.c2, e.c3));
     kinetics_.jacobian_ = program(e.jacobian);
     kinetics_.diffusion_ = program(join(e.prefactor, e.diffusion));
-    for (std::size_t i = 0; i < e.initial.size(); ++i) kinetics_.initial_.push_back(initial(i));
+    for (std::size_t i = 0; i < e.initial.size(); ++i) kinetics_.initial_.push_back(bounded(e.initial[i], i));
+    for (std::size_t i = 0; i < e.pin.size(); ++i)
+      kinetics_.pin_.push_back(e.pin[i] ? bounded(*e.pin[i], i) : std::vector<double>{});
+    if (e.held) kinetics_.held_ = place_field(*e.held);
     for (const auto& a : e.anisotropy) {
       auto& fields = kinetics_.anisotropy_.emplace_back();
       if (a) fields = {place_field(a->theta), place_field(a->a1), place_field(a->a2)};
@@ -110,8 +113,8 @@ class KineticsBuilder {
                                       : std::vector<double>{*graph_.constant_value(root[0])};
   }
 
-  std::vector<double> initial(std::size_t i) {
-    std::vector<double> values = place_field(equations_.initial[i]);
+  std::vector<double> bounded(NodeId expression, std::size_t i) {
+    std::vector<double> values = place_field(expression);
     for (double& value : values) value = std::min(std::max(value, equations_.lower[i]), equations_.upper[i]);
     return values;
   }
@@ -183,13 +186,33 @@ Kinetics::TensorField Kinetics::anisotropy(std::size_t i) const {
   return {spread(theta), spread(a1), spread(a2)};
 }
 
-void Kinetics::initial(std::size_t i, std::span<double> out) const {
-  assert(out.size() == size_);
-  const std::vector<double>& values = initial_[i];
-  if (values.size() == size_ && size_ != 1)
+std::vector<char> Kinetics::held() const {
+  if (held_.empty()) return {};
+  std::vector<char> held(size_);
+  for (std::size_t k = 0; k < size_; ++k) held[k] = held_[held_.size() == size_ ? k : 0] != 0;
+  return held;
+}
+
+namespace {
+
+/// One value per sample, or one for all.
+void spread(const std::vector<double>& values, std::span<double> out) {
+  if (values.size() == out.size() && out.size() != 1)
     std::ranges::copy(values, out.begin());
   else
     std::ranges::fill(out, values.front());
+}
+
+}  // namespace
+
+void Kinetics::initial(std::size_t i, std::span<double> out) const {
+  assert(out.size() == size_);
+  spread(initial_[i], out);
+}
+
+void Kinetics::pin(std::size_t i, std::span<double> out) const {
+  assert(out.size() == size_ && !pin_[i].empty());
+  spread(pin_[i], out);
 }
 
 }  // namespace pelage

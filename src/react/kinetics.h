@@ -54,6 +54,10 @@ class Kinetics {
   TensorField anisotropy(std::size_t i) const;
   /// The concentrations of species i at time 0, for all samples, clamped to its bounds.
   void initial(std::size_t i, std::span<double> out) const;
+  /// Those that it starts from where concentrations are held; only of species with a pin.
+  void pin(std::size_t i, std::span<double> out) const;
+  /// 1 for the samples whose concentrations are held, else 0; empty when the model holds none.
+  std::vector<char> held() const;
 
  private:
   friend class KineticsBuilder;
@@ -70,6 +74,8 @@ class Kinetics {
   Graph graph_;
   std::vector<std::vector<double>> fields_;   ///< expressions of the place alone, one value per sample
   std::vector<std::vector<double>> initial_;  ///< one value per sample, or one for all
+  std::vector<std::vector<double>> pin_;      ///< likewise; empty for species without
+  std::vector<double> held_;                  ///< likewise; empty when nothing is held
   std::vector<std::array<std::vector<double>, 3>> anisotropy_;  ///< theta, a1, a2 likewise; empty where isotropic
   Program rates_, split_, jacobian_, diffusion_;
 };

@@ -75,9 +75,14 @@ class Lexer {
     return take(Token::Kind::number, length, value);
   }
 
+  /// Names may have parts: STAGE.SPECIES.
   Token name() {
     std::size_t length = 1;
-    while (length < rest().size() && (is_name_start(rest()[length]) || is_digit(rest()[length]))) ++length;
+    const auto starts_part = [&] {
+      return rest()[length] == '.' && length + 1 < rest().size() && is_name_start(rest()[length + 1]);
+    };
+    while (length < rest().size() && (is_name_start(rest()[length]) || is_digit(rest()[length]) || starts_part()))
+      ++length;
     return take(Token::Kind::name, length);
   }
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <set>
 
+#include "base/number.h"
 #include "base/suggest.h"
 #include "react/derivative.h"
 #include "react/formula.h"
@@ -18,15 +18,9 @@ namespace {
 
 [[noreturn]] void fail(const std::string& message, const Location& where) { throw Error(Fault::usage, message, where); }
 
-std::string number_text(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  return {buffer, end};
-}
-
 std::string range_text(const ParameterSource& parameter) {
-  const std::string low = std::isfinite(parameter.min) ? number_text(parameter.min) : "";
-  const std::string high = std::isfinite(parameter.max) ? number_text(parameter.max) : "";
+  const std::string low = std::isfinite(parameter.min) ? exact_number(parameter.min) : "";
+  const std::string high = std::isfinite(parameter.max) ? exact_number(parameter.max) : "";
   if (high.empty()) return "at least " + low;
   return low.empty() ? "at most " + high : "from " + low + " to " + high;
 }
@@ -35,7 +29,7 @@ void require_in_range(const ParameterSource& parameter, const Location& where) {
   if (parameter.value >= parameter.min && parameter.value <= parameter.max && std::isfinite(parameter.value)) return;
   const std::string range =
       std::isfinite(parameter.min) || std::isfinite(parameter.max) ? range_text(parameter) : "finite";
-  fail("parameter \"" + parameter.name + "\" is " + number_text(parameter.value) + "; it must be " + range, where);
+  fail("parameter \"" + parameter.name + "\" is " + exact_number(parameter.value) + "; it must be " + range, where);
 }
 
 void apply_overrides(ModelSource& model, const Overrides& overrides) {
@@ -75,6 +69,7 @@ class Compiler {
     add_definitions();
     for (const SpeciesSource& species : source_.species) add_equation(species);
     for (std::size_t i = 0; i < source_.species.size(); ++i) check_coupling(i);
+    add_held();
     add_jacobian();
     return std::move(equations_);
   }
@@ -131,14 +126,21 @@ class Compiler {
     return id;
   }
 
+  NodeId parse_initial(const SpeciesSource& species, const std::string& key, const std::optional<Formula>& formula) {
+    const NodeId id = parse(species, key, formula, 0);
+    if (graph_[id].dependence & (on_species | on_time))
+      fail("initial values cannot depend on species or on time", formula->where);
+    return id;
+  }
+
   void add_equation(const SpeciesSource& species) {
     if (species.equals) require_nothing_else(species);
     equations_.algebraic.push_back(species.equals.has_value());
     add_diffusion(species);
     add_rate(species);
-    equations_.initial.push_back(parse(species, "initial", species.initial, 0));
-    if (graph_[equations_.initial.back()].dependence & (on_species | on_time))
-      fail("initial values cannot depend on species or on time", species.initial->where);
+    equations_.initial.push_back(parse_initial(species, "initial", species.initial));
+    equations_.pin.emplace_back();
+    if (species.pin) equations_.pin.back() = parse_initial(species, "pin", species.pin);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     equations_.lower.push_back(bound(species, "min", species.lower, -infinity));
     equations_.upper.push_back(bound(species, "max", species.upper, infinity));
@@ -193,7 +195,7 @@ class Compiler {
       c0.id = graph_.constant(1);
     }
     if (const auto constant = graph_.constant_value(c1.id); constant && !(*constant >= 0 && std::isfinite(*constant)))
-      fail("the diffusion of species \"" + species.name + "\" is " + number_text(*constant) + "; it must be 0 or more",
+      fail("the diffusion of species \"" + species.name + "\" is " + exact_number(*constant) + "; it must be 0 or more",
            (species.diffusion ? species.diffusion
             : species.c1      ? species.c1
                               : species.c0)
@@ -262,7 +264,7 @@ class Compiler {
                ->where);
     if (!coupled && diffusion && *diffusion < 0)
       fail("diffusion and lap(" + species.name + ") in the rate of \"" + species.name + "\" add up to " +
-               number_text(*diffusion) + "; it must be 0 or more",
+               exact_number(*diffusion) + "; it must be 0 or more",
            species.rate->where);
     if (species.equals) check_algebraic(i);
   }
@@ -286,6 +288,16 @@ class Compiler {
     const auto value = graph_.constant_value(parse(species, key, formula, otherwise));
     if (!value || std::isnan(*value)) fail("a bound must be a number or made of parameters", formula->where);
     return *value;
+  }
+
+  void add_held() {
+    if (!source_.held) return;
+    equations_.held = parse_formula(graph_, *source_.held, scope_, "held");
+    if (graph_[*equations_.held].dependence & (on_species | on_time))
+      fail("where concentrations are held cannot depend on them or on time", source_.held->where);
+    for (std::size_t i = 0; i < source_.species.size(); ++i)
+      if (is_coupled(equations_, i))
+        fail("concentrations that are linked by lap() cannot be held", source_.held->where);
   }
 
   void add_jacobian() {

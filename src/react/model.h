@@ -39,6 +39,7 @@ struct SpeciesSource {
   std::optional<Formula> c0, c1, c2,
       c3;                               ///< instead of `diffusion` (C0, C1) or of `rate` (C2, C3); C0, C1 default to 1
   std::optional<Formula> initial;       ///< at time 0; defaults to 0
+  std::optional<Formula> pin;           ///< at time 0 where concentrations are held, instead of `initial`
   std::optional<Formula> lower, upper;  ///< bounds to which the concentration is clamped; numbers or parameters
 };
 
@@ -98,6 +99,7 @@ struct ModelSource {
   std::vector<SpeciesSource> species;
   std::vector<ParameterSource> parameters;
   std::vector<DefinitionSource> definitions;
+  std::optional<Formula> held;  ///< where it is true the concentrations stay what they are initially
   std::vector<VariantSource> variants;
   std::optional<double> wavelength;  ///< measured spacing of the finished pattern, model length units
   Suggestions suggestions;
@@ -122,10 +124,12 @@ struct Equations {
   std::vector<NodeId> diffusion;  ///< C1, with the coefficient of the species' own Laplacian in its rate; where it is
                                   ///< anisotropic a2^2, that across the stripes which the field draws out
   std::vector<std::optional<Anisotropy>> anisotropy;
-  std::vector<double> cross;         ///< coefficient of lap(u_j) in equation i at [i * species + j], 0 for j = i
-  std::vector<NodeId> initial;       ///< depends on the place only
-  std::vector<NodeId> jacobian;      ///< dR_i / du_j at [i * species + j]
-  std::vector<double> lower, upper;  ///< bounds of the concentrations, infinite where there is none
+  std::vector<double> cross;               ///< coefficient of lap(u_j) in equation i at [i * species + j], 0 for j = i
+  std::vector<NodeId> initial;             ///< depends on the place only
+  std::vector<std::optional<NodeId>> pin;  ///< likewise
+  std::optional<NodeId> held;              ///< likewise; not 0 where the concentrations stay as they are
+  std::vector<NodeId> jacobian;            ///< dR_i / du_j at [i * species + j]
+  std::vector<double> lower, upper;        ///< bounds of the concentrations, infinite where there is none
 };
 
 /// A compiled model: an immutable value, cheap to copy.
@@ -149,6 +153,10 @@ class Model {
   bool anisotropic(std::size_t i) const { return equations_->anisotropy[i].has_value(); }
   /// Whether any does.
   bool anisotropic() const;
+
+  /// Whether concentrations are held somewhere, and whether those of species i then start from other values.
+  bool held() const { return equations_->held.has_value(); }
+  bool pinned(std::size_t i) const { return equations_->pin[i].has_value(); }
 
   /// C0 * C1 of species i where both are numbers; otherwise see Kinetics::diffusion. Not negative unless coupled.
   std::optional<double> diffusion_constant(std::size_t i) const;

@@ -42,6 +42,11 @@ std::span<const double> attribute(const Symbol& symbol, const Places& places) {
   std::vector<std::string> names;
   for (const auto& [name, values] : places.attributes) names.push_back(name);
   const std::string hint = did_you_mean(symbol.name, names);
+  if (symbol.name.find('.') != std::string::npos)
+    throw Error(Fault::usage,
+                "there is no field \"" + symbol.name + "\" (STAGE.SPECIES of an earlier stage)" +
+                    (hint.empty() ? "" : "; " + hint),
+                symbol.where);
   throw Error(Fault::usage,
               "the mesh has no vertex attribute \"" + symbol.name + "\"; " +
                   (hint.empty() ? "it has " + (names.empty() ? "none" : join_names(names)) : hint),
@@ -91,6 +96,9 @@ std::vector<Symbol> place_symbols(const Model& model) {
     roots.insert(roots.end(), expressions->begin(), expressions->end());
   for (const auto& a : e.anisotropy)
     if (a) roots.insert(roots.end(), {a->theta, a->a1, a->a2});
+  for (const auto& pin : e.pin)
+    if (pin) roots.push_back(*pin);
+  if (e.held) roots.push_back(*e.held);
   std::vector<Symbol> symbols;
   for (const NodeId id : reachable(e.graph, roots))
     if (e.graph[id].op == Op::symbol && e.graph[id].dependence == on_place) symbols.push_back(e.graph.symbol_of(id));

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/number.h"
 #include "recipe/document.h"
 
 namespace pelage {
@@ -31,14 +32,57 @@ std::optional<double> positive(const Value& table, const std::string& key) {
   return v->number();
 }
 
-Stage read_stage(const Value& table) {
+/// Formulas are located at their first character.
+Given<std::string> given_formula(const Value& v) { return {v.string(), v.text_where()}; }
+
+std::optional<Given<std::string>> optional_formula(const Value& table, const std::string& key) {
+  const Value* v = table.find(key);
+  return v ? std::optional(given_formula(*v)) : std::nullopt;
+}
+
+std::optional<Given<std::string>> optional_text(const Value& table, const std::string& key) {
+  const Value* v = table.find(key);
+  return v ? std::optional(given(*v)) : std::nullopt;
+}
+
+std::optional<Given<Length>> optional_length(const Value& table, const std::string& key) {
+  const Value* v = table.find(key);
+  if (!v) return {};
+  const bool plain = v->kind() == Value::Kind::number;
+  return Given<Length>{plain ? Length{v->number(), true} : parse_length(v->string(), v->where()), v->where()};
+}
+
+Stage::Setting read_parameter(const std::string& name, const Value& v) {
+  if (v.kind() == Value::Kind::number) return {name, v.number(), v.where()};
+  return {name, 0, v.text_where(), v.string()};
+}
+
+/// Formulas, or numbers, by species.
+std::vector<Stage::SpeciesFormula> read_species(const Value& table, const std::string& key) {
+  std::vector<Stage::SpeciesFormula> list;
+  const Value* formulas = table.find(key);
+  if (!formulas) return list;
+  for (const auto& [name, v] : formulas->entries())
+    list.push_back({name, v->kind() == Value::Kind::number ? Given<std::string>{exact_number(v->number()), v->where()}
+                                                           : given_formula(*v)});
+  return list;
+}
+
+Stage read_stage(const Value& table, std::size_t count) {
   Stage s;
+  s.name.value = "stage" + std::to_string(count);
+  read_text(table, "name", s.name);
   s.model = given(table.at("model"));
   if (const Value* v = table.find("parameters"))
-    for (const auto& [name, value] : v->entries()) s.parameters.push_back({name, value->number(), value->where()});
-  if (const Value* v = table.find("size"))
-    s.size = {v->kind() == Value::Kind::number ? Length{v->number(), true} : parse_length(v->string(), v->where()),
-              v->where()};
+    for (const auto& [name, value] : v->entries()) s.parameters.push_back(read_parameter(name, *value));
+  s.size = optional_length(table, "size");
+  s.size_map = optional_formula(table, "size-map");
+  s.points = optional_length(table, "points");
+  s.from = optional_text(table, "from");
+  s.initial = read_species(table, "initial");
+  s.mask = optional_formula(table, "mask");
+  read_text(table, "inside", s.inside);
+  s.pin = read_species(table, "pin");
   read_text(table, "method", s.method);
   read_text(table, "stepper", s.stepper);
   s.step = positive(table, "step");
@@ -48,6 +92,15 @@ Stage read_stage(const Value& table) {
   if (const Value* v = table.find("seed")) s.seed = static_cast<std::uint64_t>(whole_number(*v, 0));
   if (const Value* v = table.find("interpolate")) s.interpolate = v->boolean();
   return s;
+}
+
+/// [stage], or [[stage]] several times.
+std::vector<Stage> read_stages(const Value& given) {
+  if (given.kind() != Value::Kind::array) return {read_stage(given, 1)};
+  std::vector<Stage> stages;
+  for (const Value& table : given.items()) stages.push_back(read_stage(table, stages.size() + 1));
+  if (stages.empty()) throw Error(Fault::usage, "a recipe needs at least one stage", given.where());
+  return stages;
 }
 
 Motion read_motion(const Value& table) {
@@ -64,12 +117,33 @@ Motion read_motion(const Value& table) {
   return m;
 }
 
+Layer read_layer(const Value& table) {
+  Layer layer;
+  layer.color = optional_text(table, "color");
+  layer.ramp = optional_text(table, "ramp");
+  layer.opacity = optional_formula(table, "opacity");
+  if (layer.color.has_value() == layer.ramp.has_value())
+    throw Error(Fault::usage, "a layer has either a color or a ramp", table.where());
+  if (!layer.ramp) return layer;
+  layer.value = given_formula(table.at("value"));
+  if (const Value* range = table.find("range")) {
+    if (range->items().size() != 2)
+      throw Error(Fault::usage, "range is [LOW, HIGH], the values at the ends of the ramp", range->where());
+    layer.low = range->items()[0].number();
+    layer.high = range->items()[1].number();
+  }
+  if (layer.low == layer.high) throw Error(Fault::usage, "the ends of the range must differ", table.where());
+  return layer;
+}
+
 Look read_look(const Value& table) {
   Look look;
   if (const Value* v = table.find("species")) look.species = given(*v);
   read_text(table, "ramp", look.ramp);
   if (const Value* v = table.find("invert")) look.invert = v->boolean();
   if (const Value* v = table.find("keep-shape")) look.keep_shape = v->boolean();
+  if (const Value* v = table.find("layers"))
+    for (const Value& layer : v->items()) look.layers.push_back(read_layer(layer));
   if (const Value* v = table.find("detail")) look.detail = static_cast<int>(whole_number(*v, 0));
   return look;
 }
@@ -105,7 +179,7 @@ Recipe parse_recipe(const std::string& text, const std::string& file) {
   recipe.name = document.string_or("name", file);
   recipe.summary = document.string_or("summary", "");
   recipe.shape = document.string_or("shape", "");
-  recipe.stage = read_stage(document.at("stage"));
+  recipe.stages = read_stages(document.at("stage"));
   if (const Value* motion = document.find("motion")) recipe.motion = read_motion(*motion);
   if (const Value* look = document.find("look")) recipe.look = read_look(*look);
   document.require_all_read();

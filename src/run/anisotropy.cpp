@@ -45,7 +45,7 @@ Point mean_line(const Tensor& t, const Point& n) {
 
 /// The attribute as three components: in one, or in three as PLY files have them.
 std::optional<std::array<std::vector<double>, 3>> given_directions(const TriangleMesh& shape) {
-  const VertexAttributes all = scalar_attributes(shape);
+  const VertexAttributes all = scalar_attributes(shape.attributes);
   for (const int first : {1, 0}) {
     std::array<std::vector<double>, 3> parts;
     bool complete = true;

@@ -7,7 +7,9 @@
 #include "base/random.h"
 #include "linalg/conjugate_gradient.h"
 #include "pelage/error.h"
+#include "react/place_values.h"
 #include "run/anisotropy.h"
+#include "run/random_points.h"
 #include "time/step_support.h"
 
 namespace pelage {
@@ -32,6 +34,23 @@ std::vector<const double*> pointers(const std::vector<Vector>& fields) {
   return result;
 }
 
+/// Basis functions of Loop elements end in the triangles about the neighbours of their vertex: those of vertices
+/// further inside an excluded region do not reach out of it.
+constexpr int rings_of_a_basis_function = 2;
+
+/// What is left of a set of vertices without those that have a neighbour outside, so many times.
+std::vector<char> eroded(const Topology& topology, std::vector<char> set, int rings) {
+  for (int ring = 0; ring < rings; ++ring) {
+    std::vector<char> inner = set;
+    for (const Triangle& t : topology.triangles)
+      for (const Index v : t)
+        for (const Index neighbour : t)
+          if (!set[static_cast<std::size_t>(neighbour)]) inner[static_cast<std::size_t>(v)] = 0;
+    set = std::move(inner);
+  }
+  return set;
+}
+
 RefinedMesh coarse_mesh(const Program& program, const std::vector<Point>& points) {
   RefinedMesh mesh{make_topology(points.size(), program.shape.triangles), points, 0};
   if (program.interpolate && program.method == "loop")
@@ -42,7 +61,7 @@ RefinedMesh coarse_mesh(const Program& program, const std::vector<Point>& points
 /// So fine that it does when the surface is at its largest.
 double wanted_edge(const Program& program) {
   const double largest = std::exp(std::max(0.0, program.motion.growth * program.until));
-  return program.size / program.resolution / largest;
+  return program.edge.value_or(program.size / program.resolution) / largest;
 }
 
 }  // namespace
@@ -50,8 +69,7 @@ double wanted_edge(const Program& program) {
 Operators::Operators(const Program& program, const Progress& progress)
     : model_(program.model), length_unit_(program.length_unit) {
   report(progress, "refining", 0);
-  RefinedMesh mesh = refine_to_edge(coarse_mesh(program, program.shape.points), wanted_edge(program),
-                                    program.method == "loop", max_triangles);
+  RefinedMesh mesh = refined_mesh(program);
   levels_ = mesh.levels;
   control_ = std::move(mesh.control);
   report(progress, "tabulating basis functions", 0.2);
@@ -60,9 +78,42 @@ Operators::Operators(const Program& program, const Progress& progress)
   assembler_ = std::make_unique<Assembler>(*discretisation_);
   fill_matrices(program);
   report(progress, "sampling", 0.8);
+  attributes_ = vertex_attributes(program);
   evaluate_places(program);
+  hold_samples(program);
   if (model_.anisotropic()) find_directions(program);
   build_species();
+}
+
+RefinedMesh Operators::refined_mesh(const Program& program) const {
+  RefinedMesh mesh = coarse_mesh(program, program.shape.points);
+  const bool loop = program.method == "loop";
+  if (!program.levels) return refine_to_edge(std::move(mesh), wanted_edge(program), loop, max_triangles);
+  for (int level = 0; level < *program.levels; ++level) mesh = refine_once(mesh, loop);
+  return mesh;
+}
+
+VertexAttributes Operators::vertex_attributes(const Program& program) const {
+  VertexAttributes attributes = refined(program.shape, attributes_read(model_, program.shape), levels_);
+  for (const Symbol& s : place_symbols(model_)) {
+    if (s.kind != Symbol::Kind::attribute) continue;
+    if (const auto field = program.fields.find(s.name); field != program.fields.end()) attributes.insert(*field);
+    if (program.points && s.name == points_attribute)
+      attributes[s.name] =
+          distance_to_random_points(limit_positions(*discretisation_, control_), *program.points, program.seed);
+  }
+  return attributes;
+}
+
+/// Samples of the steppers that hold any are limit positions of the vertices: there coefficients are held instead, so
+/// that the field is exactly what it was wherever all that make it up are.
+void Operators::hold_samples(const Program& program) {
+  if (!model_.held()) return;
+  if (program.stepper == "paper")
+    throw Error(Fault::usage, "the stepper \"paper\" cannot freeze parts of the surface; take \"sbdf2\"");
+  held_ = inside_ = kinetics_->held();
+  if (program.excluded) held_ = eroded(discretisation_->topology, std::move(held_), rings_of_a_basis_function);
+  system_.held = &held_;
 }
 
 void Operators::place(const Program& program, const std::vector<Point>& points) {
@@ -88,13 +139,12 @@ void Operators::fill_matrices(const Program& program) {
 
 /// What the formulas read from the places of the samples, and of the quadrature points where a diffusion varies.
 void Operators::evaluate_places(const Program& program) {
-  const VertexAttributes attributes = refined(program.shape, attributes_read(model_, program.shape), levels_);
-  const auto at_quadrature = [&] { return quadrature_fields(model_, *discretisation_, control_, attributes); };
+  const auto at_quadrature = [&] { return quadrature_fields(model_, *discretisation_, control_, attributes_); };
   const auto kinetics = [&](const PlaceFields& fields) {
     return std::make_unique<Kinetics>(model_, fields.places(length_unit_), program.seed);
   };
   kinetics_ = kinetics(program.stepper == "paper" ? at_quadrature()
-                                                  : vertex_fields(model_, *discretisation_, control_, attributes));
+                                                  : vertex_fields(model_, *discretisation_, control_, attributes_));
   bool varies = false;
   for (std::size_t i = 0; i < model_.species_count(); ++i) varies = varies || has_own_stiffness(i);
   if (!varies) return;
@@ -266,14 +316,23 @@ double Operators::largest_k2() const {
   return 1.1 * k2;  // power iteration comes from below
 }
 
+Vector Operators::sampled_coefficients(const std::function<void(std::span<double>)>& fill) const {
+  Vector samples(sampling_.count());
+  fill(std::span<double>(samples.data(), static_cast<std::size_t>(samples.size())));
+  return coefficients_from_samples(sampling_, mass_, samples);
+}
+
+/// Pinned and other values are two smooth fields; a jump between their samples would make the coefficients overshoot.
 std::vector<Vector> Operators::initial() const {
   std::vector<Vector> coefficients;
-  const auto count = static_cast<std::size_t>(sampling_.count());
-  Vector samples(sampling_.count());
   for (std::size_t i = 0; i < model_.species_count(); ++i) {
-    kinetics_->initial(i, std::span<double>(samples.data(), count));
-    coefficients.push_back(coefficients_from_samples(sampling_, mass_, samples));
-    coefficients.back() = coefficients.back().cwiseMax(model_.lower(i)).cwiseMin(model_.upper(i));
+    Vector& u = coefficients.emplace_back(sampled_coefficients([&](auto out) { kinetics_->initial(i, out); }));
+    if (!inside_.empty() && model_.pinned(i)) {
+      const Vector pin = sampled_coefficients([&](auto out) { kinetics_->pin(i, out); });
+      for (Eigen::Index k = 0; k < u.size(); ++k)
+        if (inside_[static_cast<std::size_t>(k)]) u[k] = pin[k];
+    }
+    u = u.cwiseMax(model_.lower(i)).cwiseMin(model_.upper(i));
   }
   if (!solve_algebraic(system_, 0, coefficients, 1e-10).converged)
     throw Error(Fault::numerics,

@@ -1,7 +1,9 @@
 #pragma once
 // Discretisation, matrices and reaction of one stage, built once.
 
+#include <functional>
 #include <memory>
+#include <span>
 
 #include "base/progress.h"
 #include "discretise/assembly.h"
@@ -43,11 +45,15 @@ class Operators {
   void update(const State& state);
 
  private:
+  RefinedMesh refined_mesh(const Program& program) const;
+  VertexAttributes vertex_attributes(const Program& program) const;
   void fill_matrices(const Program& program);
   void evaluate_places(const Program& program);
+  void hold_samples(const Program& program);
   void build_species();
   bool has_own_stiffness(std::size_t species) const;
   void fill_own_stiffness(std::size_t species);
+  Vector sampled_coefficients(const std::function<void(std::span<double>)>& samples) const;
   void find_directions(const Program& program);
   void couple_species(double scale);
   struct Coefficients {
@@ -68,6 +74,9 @@ class Operators {
   std::unique_ptr<Assembler> assembler_;
   Sampling sampling_;
   SparseMatrix mass_, stiffness_;
+  VertexAttributes attributes_;  ///< that the model reads, at the vertices; they stay with them when the surface moves
+  std::vector<char> inside_;     ///< of the mask of the stage; likewise
+  std::vector<char> held_;       ///< the same, or the inner part of an excluded region
   std::vector<std::string> warnings_;
   std::unique_ptr<Kinetics> kinetics_;             ///< at the samples
   std::unique_ptr<Kinetics> quadrature_kinetics_;  ///< at the quadrature points, for diffusion that varies

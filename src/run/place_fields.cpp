@@ -29,21 +29,8 @@ std::vector<double> at_quadrature_points(const Discretisation& d, const std::vec
 
 }  // namespace
 
-VertexAttributes scalar_attributes(const TriangleMesh& mesh) {
-  VertexAttributes result;
-  for (const Attribute& a : mesh.attributes) {
-    if (a.domain != Domain::vertex) continue;
-    const auto components = static_cast<std::size_t>(a.components);
-    for (std::size_t c = 0; c < components; ++c) {
-      auto& values = result[components == 1 ? a.name : a.name + "_" + std::to_string(c + 1)];
-      for (std::size_t i = c; i < a.values.size(); i += components) values.push_back(a.values[i]);
-    }
-  }
-  return result;
-}
-
 VertexAttributes attributes_read(const Model& model, const TriangleMesh& mesh) {
-  const VertexAttributes all = scalar_attributes(mesh);
+  const VertexAttributes all = scalar_attributes(mesh.attributes);
   VertexAttributes read;
   for (const Symbol& s : place_symbols(model))
     if (const auto found = all.find(s.name); s.kind == Symbol::Kind::attribute && found != all.end())

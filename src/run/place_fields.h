@@ -8,14 +8,9 @@
 #include "discretise/curvature.h"
 #include "pelage/triangle_mesh.h"
 #include "react/kinetics.h"
+#include "shape/scalar_attributes.h"
 
 namespace pelage {
-
-/// Values at the control vertices, by the name that attribute(NAME) uses.
-using VertexAttributes = std::map<std::string, std::vector<double>>;
-
-/// The vertex attributes of a mesh, each component by itself: "mask", or "color_1", "color_2", "color_3".
-VertexAttributes scalar_attributes(const TriangleMesh& mesh);
 
 /// Those that the model reads and the mesh has.
 VertexAttributes attributes_read(const Model& model, const TriangleMesh& mesh);

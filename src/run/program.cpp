@@ -5,6 +5,8 @@
 
 namespace pelage {
 
+std::string field_name(const std::string& stage, const std::string& species) { return stage + "." + species; }
+
 double bounding_diagonal(const TriangleMesh& mesh) {
   if (mesh.points.empty()) return 0;
   Point low = mesh.points[0], high = low;

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numbers>
 
 #include "base/number.h"
 #include "linalg/conjugate_gradient.h"
 #include "pelage/error.h"
+#include "run/checkpoint.h"
 #include "time/step_limit.h"
 #include "time/step_support.h"
 
@@ -49,49 +49,86 @@ double first_step(const Program& p, double stable_step) {
 
 }  // namespace
 
-Run::Run(Program program, const Progress& progress)
-    : program_(std::move(program)),
-      operators_(std::make_unique<Operators>(program_, progress)),
-      stepper_(make_stepper(program_.stepper)),
-      stable_step_(find_stable_step(program_, *operators_)),
-      step_(first_step(program_, stable_step_)) {
-  if (program_.motion.any()) surface_ = std::make_unique<MovingSurface>(program_.shape, program_.motion);
+Run::Run(Program program, const Progress& progress) : Run(std::vector<Program>{std::move(program)}, progress) {}
+
+Run::Run(std::vector<Program> stages, const Progress& progress) : stages_(std::move(stages)) {
+  if (program().motion.any()) surface_ = std::make_unique<MovingSurface>(program().shape, program().motion);
+  begin_stage(progress);
+}
+
+void Run::begin_stage(const Progress& progress) {
+  operators_ = std::make_unique<Operators>(program(), progress);
+  stepper_ = make_stepper(program().stepper);
+  stable_step_ = find_stable_step(program(), *operators_);
+  step_ = first_step(program(), stable_step_);
+  state_ = {};
   state_.now = operators_->initial();
+  summary_ = {};
   summary_.step = step_;
   check_stop();
+}
+
+void Run::next_stage() {
+  finished_.push_back({std::move(state_.now), summary_});
+  enter_stage(stage_ + 1, surface_ ? surface_->points() : program().shape.points);
+}
+
+/// The stage `number` on the mesh of the present one, with the fields of all finished stages.
+void Run::enter_stage(std::size_t number, const std::vector<Point>& points) {
+  Program& next = stages_[number];
+  if (number != stage_) next.shape = std::move(stages_[stage_].shape);
+  next.shape.points = points;
+  next.levels = operators_->levels();
+  next.fields.clear();
+  const SparseMatrix& at_vertices = operators_->discretisation().values;
+  for (std::size_t k = 0; k < finished_.size(); ++k)
+    for (std::size_t i = 0; i < finished_[k].fields.size(); ++i) {
+      const Vector values = at_vertices * finished_[k].fields[i];
+      next.fields[field_name(stages_[k].name, stages_[k].model.species_name(i))] = {values.begin(), values.end()};
+    }
+  stage_ = number;
+  begin_stage({});
 }
 
 Run::~Run() = default;
 Run::Run(Run&&) noexcept = default;
 
+bool Run::done() const {
+  return summary_.status == RunStatus::failed || (stage_done() && stage_ + 1 == stages_.size());
+}
+
 double Run::fraction() const {
   if (done()) return 1;
-  double fraction = program_.until > 0 ? state_.time / program_.until : 0;
-  if (program_.steps)
-    fraction = std::max(fraction, static_cast<double>(state_.step) / static_cast<double>(*program_.steps));
-  return std::min(1.0, fraction);
+  double fraction = program().until > 0 ? state_.time / program().until : 0;
+  if (program().steps)
+    fraction = std::max(fraction, static_cast<double>(state_.step) / static_cast<double>(*program().steps));
+  if (stage_done()) fraction = 1;
+  return (static_cast<double>(stage_) + std::min(1.0, fraction)) / static_cast<double>(stages_.size());
 }
 
 /// The error does not see the limit of stability before it is passed, so that the step stays below the model's
 /// suggestion. The last step is cut to end on time; a rest below a thousandth of a step is joined to it.
 double Run::next_step() const {
-  const double rest = program_.until - state_.time;
+  const double rest = program().until - state_.time;
   return rest < step_ * 1.001 ? rest : step_;
 }
 
 const RunSummary& Run::advance(std::int64_t steps) {
-  const double smallest_step = smallest_step_fraction * program_.suggested_step;
   for (std::int64_t k = 0; k < steps && !done();) {
+    if (stage_done()) {
+      next_stage();
+      continue;
+    }
     follow_surface(state_.time + next_step());
     operators_->update(state_);
     StepRequest request{.dt = next_step(), .solver_tolerance = solver_tolerance};
-    if (adaptive(program_)) request.largest_error = step_tolerance;
+    if (adaptive(program())) request.largest_error = step_tolerance;
     const StepReport report = stepper_->step(operators_->system(), state_, request);
     summary_.iterations += report.iterations;
     if (report.accepted) {
       accept(report);
       ++k;
-    } else if (adaptive(program_) && request.dt > smallest_step) {
+    } else if (adaptive(program()) && request.dt > smallest_step_fraction * program().suggested_step) {
       ++summary_.rejected;
       step_ = request.dt / 2;
     } else {
@@ -107,11 +144,16 @@ const RunSummary& Run::advance(std::int64_t steps) {
 /// with v = u for textures; with M^(n+1) v^n = M^n u^n it is the evolving surface finite element method (Dziuk, Elliott
 /// 2007; Barreira, Elliott, Madzvamuse 2011) for d/dt (M u) + D K u = F.
 void Run::follow_surface(double time) {
-  if (!surface_ || !surface_->advance(state_.step, time)) return;
+  std::int64_t steps = state_.step;
+  for (const FinishedStage& stage : finished_) {
+    steps += stage.summary.steps;
+    time += stage.summary.time;
+  }
+  if (!surface_ || !surface_->advance(steps, time)) return;
   const SparseMatrix mass_before = *operators_->system().mass;
-  operators_->place(program_, surface_->points());
-  if (program_.motion.physical) keep_amounts(mass_before);
-  stepper_ = make_stepper(program_.stepper);  // the matrices that it kept are of the old surface
+  operators_->place(program(), surface_->points());
+  if (program().motion.physical) keep_amounts(mass_before);
+  stepper_ = make_stepper(program().stepper);  // the matrices that it kept are of the old surface
   if (state_.past_rates.empty()) return;
   std::vector<Vector> samples;
   sample_fields(operators_->system(), state_.past[0], samples);
@@ -146,43 +188,50 @@ void Run::accept(const StepReport& report) {
   summary_.change = report.change;
   // The estimate grows with the third power of the step.
   const double room = step_factor * step_factor * step_factor * 1.2;
-  if (adaptive(program_) && state_.past.size() > 1 && report.error * room < step_tolerance)
-    step_ = std::min(step_ * step_factor, program_.suggested_step);
+  if (adaptive(program()) && state_.past.size() > 1 && report.error * room < step_tolerance)
+    step_ = std::min(step_ * step_factor, program().suggested_step);
   summary_.step = step_;
   check_stop();
 }
 
 void Run::check_stop() {
-  if (program_.steps && state_.step >= *program_.steps)
+  if (program().steps && state_.step >= *program().steps)
     summary_.status = RunStatus::steps_reached;
-  else if (state_.time >= program_.until)
+  else if (state_.time >= program().until)
     summary_.status = RunStatus::time_reached;
   else if (surface_ && surface_->moving())
     summary_.status = RunStatus::running;
-  else if (state_.step > 0 && program_.stationary > 0 && summary_.change < program_.stationary)
+  else if (state_.step > 0 && program().stationary > 0 && summary_.change < program().stationary)
     summary_.status = RunStatus::stationary;
 }
 
 void Run::fail(const StepReport& report) {
   summary_.status = RunStatus::failed;
-  summary_.message = "step " + std::to_string(state_.step + 1) + ", time " + number(state_.time) + ": " +
-                     (report.failure.empty() ? "the fields change too fast for the smallest step" : report.failure) + "; " +
-                     (program_.step ? "halve the step or leave it to the stepper"
-                                    : "check the parameters of the model, or give a smaller --step");
+  summary_.message = (stages_.size() > 1 ? "stage " + program().name + ", step " : "step ") +
+                     std::to_string(state_.step + 1) + ", time " + number(state_.time) + ": " +
+                     (report.failure.empty() ? "the fields change too fast for the smallest step" : report.failure) +
+                     "; " +
+                     (program().step ? "halve the step or leave it to the stepper"
+                                     : "check the parameters of the model, or give a smaller --step");
 }
 
 CoatFields Run::fields() const {
   CoatFields f;
-  f.shape = program_.shape;
+  f.shape = program().shape;
   if (surface_) f.shape.points = surface_->points();
   f.levels = operators_->levels();
-  f.loop = program_.method == "loop";
+  f.loop = program().method == "loop";
   f.control = operators_->control();
-  f.wavelength = program_.size;
-  for (std::size_t i = 0; i < state_.now.size(); ++i) {
-    f.species.push_back(program_.model.species_name(i));
-    f.coefficients.emplace_back(state_.now[i].begin(), state_.now[i].end());
-  }
+  f.wavelength = program().size;
+  for (const Program& stage : stages_) f.wavelength = std::min(f.wavelength, stage.size);
+  const auto add = [&](const std::string& name, const Vector& u) {
+    f.species.push_back(name);
+    f.coefficients.emplace_back(u.begin(), u.end());
+  };
+  for (std::size_t k = 0; k < finished_.size(); ++k)
+    for (std::size_t i = 0; i < finished_[k].fields.size(); ++i)
+      add(field_name(stages_[k].name, stages_[k].model.species_name(i)), finished_[k].fields[i]);
+  for (std::size_t i = 0; i < state_.now.size(); ++i) add(program().model.species_name(i), state_.now[i]);
   return f;
 }
 
@@ -197,26 +246,8 @@ double measured_wavelength(const SparseMatrix& mass, const SparseMatrix& stiffne
 
 namespace {
 
-constexpr char magic[] = "pelage checkpoint 1\n";
-
-class Writer {
- public:
-  explicit Writer(std::string& out) : out_(out) {}
-  template <class T>
-  void number(T value) {
-    out_.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-  void fields(const std::vector<Vector>& fields) {
-    number(static_cast<std::uint64_t>(fields.size()));
-    for (const Vector& f : fields) {
-      number(static_cast<std::uint64_t>(f.size()));
-      out_.append(reinterpret_cast<const char*>(f.data()), static_cast<std::size_t>(f.size()) * sizeof(double));
-    }
-  }
-
- private:
-  std::string& out_;
-};
+constexpr char magic[] = "pelage checkpoint 2\n";
+constexpr const char* foreign = "the checkpoint belongs to another shape, size, model or recipe";
 
 /// Points as a field of their coordinates, one after the other.
 Vector flattened(const std::vector<Point>& points) {
@@ -233,39 +264,6 @@ std::vector<Point> as_points(const Vector& flat) {
   return points;
 }
 
-class Reader {
- public:
-  explicit Reader(const std::string& in) : in_(in) {}
-  void bytes(void* target, std::size_t count) {
-    if (count > in_.size() - at_) throw Error(Fault::input, "the checkpoint is cut short");
-    std::memcpy(target, in_.data() + at_, count);
-    at_ += count;
-  }
-  template <class T>
-  T number() {
-    T value;
-    bytes(&value, sizeof value);
-    return value;
-  }
-  std::vector<Vector> fields() {
-    std::vector<Vector> result(limited(number<std::uint64_t>()));
-    for (Vector& f : result) {
-      f.resize(static_cast<Eigen::Index>(limited(number<std::uint64_t>())));
-      bytes(f.data(), static_cast<std::size_t>(f.size()) * sizeof(double));
-    }
-    return result;
-  }
-  bool at_end() const { return at_ == in_.size(); }
-
- private:
-  std::size_t limited(std::uint64_t count) const {  // every element takes at least eight bytes
-    if (count > (in_.size() - at_) / sizeof(double)) throw Error(Fault::input, "the checkpoint is damaged");
-    return static_cast<std::size_t>(count);
-  }
-  const std::string& in_;
-  std::size_t at_ = 0;
-};
-
 bool has_sizes(const std::vector<Vector>& fields, std::size_t count, Eigen::Index size) {
   return fields.size() == count &&
          std::all_of(fields.begin(), fields.end(), [&](const Vector& f) { return f.size() == size; });
@@ -275,11 +273,18 @@ bool has_sizes(const std::vector<Vector>& fields, std::size_t count, Eigen::Inde
 
 std::string Run::checkpoint() const {
   std::string out = magic;
-  Writer w(out);
+  CheckpointWriter w(out);
   w.number(state_.time);
   w.number(state_.step);
   w.number(step_);
   w.number(summary_.change);
+  w.number(static_cast<std::uint64_t>(stage_));
+  for (const FinishedStage& stage : finished_) {
+    w.number(static_cast<std::uint64_t>(stage.summary.status));
+    w.number(stage.summary.time);
+    w.number(stage.summary.steps);
+    w.fields(stage.fields);
+  }
   w.fields(state_.now);
   w.number(static_cast<std::uint64_t>(state_.past.size()));
   for (std::size_t k = 0; k < state_.past.size(); ++k) {
@@ -289,6 +294,7 @@ std::string Run::checkpoint() const {
   w.fields(state_.past_rates);
   if (!surface_) return out;
   const MovingSurface::State surface = surface_->state();
+  w.fields({flattened(program().shape.points)});  // where the stage began
   w.number(surface.scale);
   w.number(static_cast<std::uint64_t>(surface.fair_steps));
   w.number(static_cast<std::uint64_t>(surface.fair_done));
@@ -296,51 +302,86 @@ std::string Run::checkpoint() const {
   return out;
 }
 
-void Run::restore(const std::string& bytes) {
+/// What a checkpoint holds.
+struct Run::Snapshot {
+  State state;
+  double step = 0, change = 0;
+  std::size_t stage = 0;
+  std::vector<FinishedStage> finished;
+  std::vector<Vector> start, faired;  ///< points
+  MovingSurface::State surface;
+};
+
+/// Error(Fault::input) when the bytes end early, go on for too long, or speak of a stage that this run does not have.
+Run::Snapshot Run::read_snapshot(const std::string& bytes) const {
   if (bytes.compare(0, sizeof magic - 1, magic) != 0) throw Error(Fault::input, "this is not a checkpoint");
   const std::string body = bytes.substr(sizeof magic - 1);
-  Reader r(body);
-  State state;
-  state.time = r.number<double>();
-  state.step = r.number<std::int64_t>();
-  const double step = r.number<double>();
-  const double change = r.number<double>();
-  state.now = r.fields();
+  CheckpointReader r(body);
+  Snapshot s;
+  s.state.time = r.number<double>();
+  s.state.step = r.number<std::int64_t>();
+  s.step = r.number<double>();
+  s.change = r.number<double>();
+  s.stage = static_cast<std::size_t>(r.number<std::uint64_t>());
+  if (s.stage >= stages_.size()) throw Error(Fault::input, foreign);
+  for (std::size_t k = 0; k < s.stage; ++k) {
+    FinishedStage& stage = s.finished.emplace_back();
+    stage.summary.status = static_cast<RunStatus>(r.number<std::uint64_t>());
+    stage.summary.time = r.number<double>();
+    stage.summary.steps = r.number<std::int64_t>();
+    stage.fields = r.fields();
+  }
+  s.state.now = r.fields();
   const auto depth = r.number<std::uint64_t>();
   for (std::uint64_t k = 0; k < depth && k < 2; ++k) {
-    state.past_steps.push_back(r.number<double>());
-    state.past.push_back(r.fields());
+    s.state.past_steps.push_back(r.number<double>());
+    s.state.past.push_back(r.fields());
   }
-  state.past_rates = r.fields();
-  MovingSurface::State surface;
-  bool fits = true;
+  s.state.past_rates = r.fields();
   if (surface_) {
-    surface.scale = r.number<double>();
-    surface.fair_steps = static_cast<int>(r.number<std::uint64_t>());
-    surface.fair_done = r.number<std::uint64_t>() != 0;
-    const std::vector<Vector> faired = r.fields();
-    fits = has_sizes(faired, 1, 3 * std::ssize(surface_->state().faired)) && surface.scale > 0;
-    if (fits) surface.faired = as_points(faired[0]);
+    s.start = r.fields();
+    s.surface.scale = r.number<double>();
+    s.surface.fair_steps = static_cast<int>(r.number<std::uint64_t>());
+    s.surface.fair_done = r.number<std::uint64_t>() != 0;
+    s.faired = r.fields();
   }
-  const System& system = operators_->system();
-  const auto unknowns = system.mass->rows();
-  fits = fits && r.at_end() && has_sizes(state.now, state_.now.size(), unknowns);
-  for (const auto& fields : state.past) fits = fits && has_sizes(fields, state_.now.size(), unknowns);
-  if (program_.stepper == "sbdf2" && !state.past.empty())
-    fits = fits && has_sizes(state.past_rates, state_.now.size(), system.sampling->count());
-  if (!fits) throw Error(Fault::input, "the checkpoint belongs to another shape, size or model");
-  state_ = std::move(state);
+  if (!r.at_end()) throw Error(Fault::input, foreign);
+  return s;
+}
+
+/// Whether all sizes are those of this run.
+bool Run::fits(const Snapshot& s) const {
+  const auto unknowns = operators_->system().mass->rows();
+  const std::size_t species = stages_[s.stage].model.species_count();
+  bool fits = has_sizes(s.state.now, species, unknowns);
+  for (const auto& fields : s.state.past) fits = fits && has_sizes(fields, species, unknowns);
+  for (std::size_t k = 0; k < s.finished.size(); ++k)
+    fits = fits && has_sizes(s.finished[k].fields, stages_[k].model.species_count(), unknowns);
+  if (program().stepper == "sbdf2" && !s.state.past.empty())  // which samples at the vertices
+    fits = fits && has_sizes(s.state.past_rates, species, unknowns);
+  if (!surface_) return fits;
+  return fits && s.surface.scale > 0 && has_sizes(s.start, 1, 3 * std::ssize(program().shape.points)) &&
+         has_sizes(s.faired, 1, 3 * std::ssize(surface_->state().faired));
+}
+
+void Run::restore(const std::string& bytes) {
+  Snapshot s = read_snapshot(bytes);
+  if (!fits(s)) throw Error(Fault::input, foreign);
+  finished_ = std::move(s.finished);
+  if (s.stage != stage_ || surface_) enter_stage(s.stage, surface_ ? as_points(s.start[0]) : program().shape.points);
+  state_ = std::move(s.state);
   if (surface_) {
-    surface_->restore(std::move(surface));
-    operators_->place(program_, surface_->points());
-    stepper_ = make_stepper(program_.stepper);
+    s.surface.faired = as_points(s.faired[0]);
+    surface_->restore(std::move(s.surface));
+    operators_->place(program(), surface_->points());
+    stepper_ = make_stepper(program().stepper);
   }
-  step_ = step;
+  step_ = s.step;
   summary_ = {};
   summary_.time = state_.time;
   summary_.steps = state_.step;
   summary_.step = step_;
-  summary_.change = change;
+  summary_.change = s.change;
   check_stop();
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The loop of the program: a stage from its initial state to its stop.
+// The loop of the program: one stage after the other, each from its initial state to its stop.
 
 #include <memory>
 #include <string>
@@ -22,7 +22,7 @@ enum class RunStatus {
   failed  ///< the fields blew up or a solve did not converge; see RunSummary::message
 };
 
-/// What has happened so far.
+/// What has happened so far in a stage.
 struct RunSummary {
   RunStatus status = RunStatus::running;
   std::string message;  ///< of a failure: what, where, and what to do
@@ -39,10 +39,12 @@ class Run {
  public:
   /// Builds the operators and the initial state; throws Error as the parts do.
   explicit Run(Program program, const Progress& progress = {});
+  /// Several stages on one shape, which the first one brings.
+  explicit Run(std::vector<Program> stages, const Progress& progress = {});
   ~Run();
   Run(Run&&) noexcept;
 
-  bool done() const { return summary_.status != RunStatus::running; }
+  bool done() const;
   /// Up to `steps` steps, fewer if the run is done before.
   const RunSummary& advance(std::int64_t steps);
   const RunSummary& summary() const { return summary_; }
@@ -52,14 +54,23 @@ class Run {
   /// Largest step that linear analysis allows the "paper" and "explicit" steppers [model time]; infinite for others.
   double stable_step() const { return stable_step_; }
 
-  const Program& program() const { return program_; }
+  /// The stage in progress, or the last one.
+  const Program& program() const { return stages_[stage_]; }
+  std::size_t stage() const { return stage_; }
+  struct FinishedStage {
+    std::vector<Vector> fields;  ///< coefficients per species
+    RunSummary summary;
+  };
+  /// The stages before that.
+  const std::vector<FinishedStage>& finished() const { return finished_; }
+  const std::vector<Program>& stages() const { return stages_; }
   const Operators& operators() const { return *operators_; }
   const std::vector<Vector>& coefficients() const { return state_.now; }
   /// Null when the surface stays where it is.
   const MovingSurface* surface() const { return surface_.get(); }
   /// Area integrals of the species [values times world units^2].
   std::vector<double> amounts() const;
-  /// A copy of the fields, to be dressed.
+  /// A copy of the fields of all stages, to be dressed; of earlier ones "STAGE.SPECIES".
   CoatFields fields() const;
 
   /// Everything that changes, as bytes (little-endian doubles): a run of the same program that restores it continues
@@ -69,6 +80,13 @@ class Run {
   void restore(const std::string& bytes);
 
  private:
+  struct Snapshot;
+  bool stage_done() const { return summary_.status != RunStatus::running; }
+  void begin_stage(const Progress& progress);
+  void next_stage();
+  void enter_stage(std::size_t number, const std::vector<Point>& points);
+  Snapshot read_snapshot(const std::string& bytes) const;
+  bool fits(const Snapshot& snapshot) const;
   double next_step() const;
   void follow_surface(double time);
   void keep_amounts(const SparseMatrix& mass_before);
@@ -76,7 +94,9 @@ class Run {
   void fail(const StepReport& report);
   void check_stop();
 
-  Program program_;
+  std::vector<Program> stages_;
+  std::size_t stage_ = 0;
+  std::vector<FinishedStage> finished_;
   std::unique_ptr<Operators> operators_;
   std::unique_ptr<MovingSurface> surface_;
   std::unique_ptr<Stepper> stepper_;

@@ -26,7 +26,7 @@ class Sbdf2 final : public Stepper {
   static Scheme scheme(const State& state, double dt);
   void solve_coupled(const System& system, const State& state, const Scheme& s, const StepRequest& request,
                      StepReport& report);
-  void first_guess(const State& state, std::size_t species, double dt);
+  void first_guess(const System& system, const State& state, std::size_t species, double dt);
   void right_hand_side(const System& system, const Scheme& s, std::size_t species);
   static double early_error(const System& system, const State& state, const std::vector<Vector>& next);
   static double error_estimate(const System& system, const State& state, const std::vector<Vector>& next, double dt);
@@ -109,18 +109,22 @@ double Sbdf2::error_estimate(const System& system, const State& state, const std
   return worst;
 }
 
-/// The polynomial through the last states, of degree two at most, continued.
-void Sbdf2::first_guess(const State& state, std::size_t i, double dt) {
-  next_[i] = state.now[i];
+/// The polynomial through the last states, of degree two at most, continued; held coefficients without rounding.
+void Sbdf2::first_guess(const System& system, const State& state, std::size_t i, double dt) {
+  Vector& guess = next_[i];
+  guess = state.now[i];
   if (state.past.empty()) return;
   const double t1 = state.past_steps[0];
   if (state.past.size() < 2) {
-    axpby(-dt / t1, state.past[0][i], 1 + dt / t1, next_[i]);
-    return;
+    axpby(-dt / t1, state.past[0][i], 1 + dt / t1, guess);
+  } else {
+    const double t2 = t1 + state.past_steps[1];
+    axpby(-dt * (dt + t2) / (t1 * (t2 - t1)), state.past[0][i], (dt + t1) * (dt + t2) / (t1 * t2), guess);
+    axpby(dt * (dt + t1) / (t2 * (t2 - t1)), state.past[1][i], 1, guess);
   }
-  const double t2 = t1 + state.past_steps[1];
-  axpby(-dt * (dt + t2) / (t1 * (t2 - t1)), state.past[0][i], (dt + t1) * (dt + t2) / (t1 * t2), next_[i]);
-  axpby(dt * (dt + t1) / (t2 * (t2 - t1)), state.past[1][i], 1, next_[i]);
+  if (!system.held) return;
+  for (Eigen::Index k = 0; k < guess.size(); ++k)
+    if ((*system.held)[static_cast<std::size_t>(k)]) guess[k] = state.now[i][k];
 }
 
 /// The rows of all coupled species, each divided by what stands before M u_i^(n+1).
@@ -136,7 +140,7 @@ void Sbdf2::solve_coupled(const System& system, const State& state, const Scheme
     right_hand_side(system, algebraic ? Scheme{1, 0, 0, s.rate_now / dt, s.rate_before / dt} : s, i);
     b.push_back(algebraic ? rhs_ : rhs_ / s.alpha);
     if (!algebraic) flux.row(static_cast<Eigen::Index>(k)) *= dt / s.alpha;
-    first_guess(state, i, dt);
+    first_guess(system, state, i, dt);
     x.push_back(std::move(next_[i]));
   }
   coupled_.update(*system.mass, *c.stiffness, flux);
@@ -160,9 +164,10 @@ StepReport Sbdf2::step(const System& system, State& state, const StepRequest& re
   for (std::size_t i = 0; i < system.species.size(); ++i) {
     const Species& species = system.species[i];
     if (species.coupled) continue;
-    matrices_[i].update(mass_of(system, i), s.alpha, *species.stiffness, dt * species.diffusion, species.revision);
+    matrices_[i].update(mass_of(system, i), s.alpha, *species.stiffness, dt * species.diffusion, species.revision,
+                        system.held);
     right_hand_side(system, s, i);
-    first_guess(state, i, dt);
+    first_guess(system, state, i, dt);
     matrices_[i].solve(rhs_, next_[i], species.name, request.solver_tolerance, report);
   }
   if (!system.coupled.index.empty()) solve_coupled(system, state, s, request, report);

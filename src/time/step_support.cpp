@@ -99,13 +99,16 @@ void advance(const System& system, State& state, double dt, std::vector<Vector>&
 }
 
 void StepMatrix::update(const SparseMatrix& mass, double alpha, const SparseMatrix& stiffness, double beta,
-                        std::uint64_t revision) {
+                        std::uint64_t revision, const std::vector<char>* held) {
   if (alpha == alpha_ && beta == beta_ && revision == revision_ && matrix_.pattern == mass.pattern) return;
   combine(alpha, mass, beta, stiffness, matrix_);
   inverse_diagonal_ = diagonal(matrix_).cwiseInverse();
   // Vertices without triangles have empty rows.
   for (double& d : inverse_diagonal_)
     if (!std::isfinite(d)) d = 1;
+  if (held)
+    for (Eigen::Index i = 0; i < inverse_diagonal_.size(); ++i)
+      if ((*held)[static_cast<std::size_t>(i)]) inverse_diagonal_[i] = 0;
   alpha_ = alpha;
   beta_ = beta;
   revision_ = revision;

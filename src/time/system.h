@@ -58,6 +58,7 @@ struct System {
   const Sampling* sampling = nullptr;
   std::vector<Species> species;
   CoupledSpecies coupled;
+  const std::vector<char>* held = nullptr;  ///< coefficients that stay as they are, of all species; null: none
   Reaction reaction;
   /// Mass matrix weighted by a factor at the samples; only the semi-implicit stepper of the paper needs it.
   std::function<SparseMatrix(const Vector& factor)> weighted_mass;

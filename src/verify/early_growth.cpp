@@ -23,12 +23,12 @@ namespace {
 /// The model on an even substrate, on the unit sphere.
 Program program_on_sphere(const std::string& model, int vertices, double waves) {
   Recipe recipe;
-  recipe.stage.model.value = model;
+  recipe.stages[0].model.value = model;
   for (const ParameterSource& p : load_model(model).parameters)
-    if (p.name == "unevenness") recipe.stage.parameters.push_back({p.name, 0, {}});
-  recipe.stage.size = Given<Length>{{2 * std::numbers::pi / waves, false}, {}};
-  recipe.stage.interpolate = true;
-  return resolve(recipe, builtin_shape("builtin:sphere?n=" + std::to_string(vertices)));
+    if (p.name == "unevenness") recipe.stages[0].parameters.push_back({p.name, 0, {}});
+  recipe.stages[0].size = Given<Length>{{2 * std::numbers::pi / waves, false}, {}};
+  recipe.stages[0].interpolate = true;
+  return resolve(recipe, builtin_shape("builtin:sphere?n=" + std::to_string(vertices))).front();
 }
 
 /// The lengths of a run whose waves grow at rates around `growth`.

@@ -16,9 +16,9 @@ constexpr double size = 0.6;  // about 40 spots on the unit sphere
 /// pattern has hardly any harmonics, which would shorten the measured length.
 double relative_wavelength(Triangulation triangulation) {
   Recipe recipe;
-  recipe.stage.model.value = "turing";
-  recipe.stage.size = Given<Length>{{size, false}, {}};
-  recipe.stage.interpolate = true;
+  recipe.stages[0].model.value = "turing";
+  recipe.stages[0].size = Given<Length>{{size, false}, {}};
+  recipe.stages[0].interpolate = true;
   Run run(resolve(recipe, unit_sphere(triangulation, 1002)));
   while (!run.done()) run.advance(100);
   if (run.summary().status == RunStatus::failed) return 0;

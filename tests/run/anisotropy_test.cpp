@@ -147,10 +147,10 @@ Run on_square(const std::string& model, double side, int vertices, double size, 
   for (Point& p : mesh.points) p = {side * p[0], side * p[1], 0};
   set_directions(mesh, [](const Point&) { return Point{1, 0, 0}; });
   Recipe recipe;
-  recipe.stage.model.value = path.string();
-  recipe.stage.size = Given<Length>{{size, false}, {}};
-  recipe.stage.until = until;
-  recipe.stage.interpolate = true;
+  recipe.stages[0].model.value = path.string();
+  recipe.stages[0].size = Given<Length>{{size, false}, {}};
+  recipe.stages[0].until = until;
+  recipe.stages[0].interpolate = true;
   return Run(resolve(recipe, mesh));
 }
 

@@ -17,11 +17,11 @@ namespace {
 
 Program on_sphere(const std::string& model, const std::string& stepper = "sbdf2") {
   Recipe recipe;
-  recipe.stage.model.value = model;
-  recipe.stage.stepper.value = stepper;
-  recipe.stage.size = Given<Length>{{2, false}, {}};
-  recipe.stage.interpolate = true;
-  return resolve(recipe, builtin_shape("builtin:sphere?n=642"));
+  recipe.stages[0].model.value = model;
+  recipe.stages[0].stepper.value = stepper;
+  recipe.stages[0].size = Given<Length>{{2, false}, {}};
+  recipe.stages[0].interpolate = true;
+  return resolve(recipe, builtin_shape("builtin:sphere?n=642")).front();
 }
 
 /// The spherical harmonic 3 z^2 - 1 as coefficients.

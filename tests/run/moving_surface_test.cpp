@@ -18,7 +18,7 @@ using Growth = Run;  // in a test, Run is a function of its own
 
 Recipe moving_recipe(double size = 0.5) {
   Recipe recipe;
-  recipe.stage.size = Given<Length>{{size, false}, {}};
+  recipe.stages[0].size = Given<Length>{{size, false}, {}};
   return recipe;
 }
 
@@ -47,9 +47,9 @@ TEST(MovingSurface, SlicesAndCheckpointsKeepTheBits) {
       Recipe recipe = fairing_recipe(3);
       recipe.motion.mode.value = mode;
       recipe.motion.growth = 1e-4;
-      recipe.stage.stepper.value = stepper;
-      recipe.stage.size = Given<Length>{{1, false}, {}};
-      if (recipe.stage.stepper.value != "sbdf2") recipe.stage.step = 0.02;
+      recipe.stages[0].stepper.value = stepper;
+      recipe.stages[0].size = Given<Length>{{1, false}, {}};
+      if (recipe.stages[0].stepper.value != "sbdf2") recipe.stages[0].step = 0.02;
       const auto start = [&] { return Growth(resolve(recipe, noisy_sphere("162"))); };
       Growth whole = start(), sliced = start(), resumed = start();
       whole.advance(25);
@@ -80,9 +80,9 @@ Program growing_sphere(const std::string& mode, double step) {
   recipe.motion.growth = g;
   recipe.motion.mode.value = mode;
   recipe.motion.every = 1;
-  recipe.stage.step = step;
-  recipe.stage.until = until;
-  Program program = resolve(recipe, builtin_shape("builtin:sphere?n=642"));
+  recipe.stages[0].step = step;
+  recipe.stages[0].until = until;
+  Program program = resolve(recipe, builtin_shape("builtin:sphere?n=642")).front();
   program.model =
       compile(parse_model("name = \"source\"\ntitle = \"source and decay\"\ncite = \"none\"\n"
                           "[species.u]\nrate = \"0.3 - 0.2*u\"\ndiffusion = \"0.01\"\ninitial = \"2\"\n",
@@ -123,7 +123,7 @@ TEST(MovingSurface, ValuesOfATextureDoNotKnowOfGrowth) {
 TEST(MovingSurface, MovingAloneKeepsEveryAmount) {
   Recipe recipe = fairing_recipe(1);
   recipe.motion.mode.value = "physical";
-  Program program = resolve(recipe, noisy_sphere("642"));
+  Program program = resolve(recipe, noisy_sphere("642")).front();
   program.model =
       compile(parse_model("name = \"still\"\ntitle = \"diffusion alone\"\ncite = \"none\"\n"
                           "[species.u]\nrate = \"0\"\ndiffusion = \"0.01\"\ninitial = \"1 + noise(1)\"\n",
@@ -147,17 +147,17 @@ TEST(MovingSurface, ThePatternOfANoisyShapeHasTheSpacingOfTheCleanOne) {
   const TriangleMesh clean = builtin_shape("builtin:animal?n=1000");
   const double size = 0.2 * bounding_diagonal(clean);
   Recipe recipe = moving_recipe(size);
-  const double wanted = grown_wavelength(resolve(recipe, clean));
+  const double wanted = grown_wavelength(resolve(recipe, clean).front());
   recipe.motion.fair = {"guided", {}};
-  EXPECT_NEAR(grown_wavelength(resolve(recipe, with_noise(clean, 0.2))) / wanted, 1, 0.05) << wanted / size;
+  EXPECT_NEAR(grown_wavelength(resolve(recipe, with_noise(clean, 0.2)).front()) / wanted, 1, 0.05) << wanted / size;
 }
 
 TEST(MovingSurface, TheMeshIsMadeForTheLargestSize) {
   Recipe recipe = moving_recipe(2);
-  recipe.stage.until = 1000;
-  const Program still = resolve(recipe, noisy_sphere());
+  recipe.stages[0].until = 1000;
+  const Program still = resolve(recipe, noisy_sphere()).front();
   recipe.motion.growth = 2e-3;
-  const Program growing = resolve(recipe, noisy_sphere());
+  const Program growing = resolve(recipe, noisy_sphere()).front();
   EXPECT_GT(Operators(growing, {}).levels(), Operators(still, {}).levels());
 }
 

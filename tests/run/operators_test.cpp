@@ -21,12 +21,12 @@ Run on_unit_sphere(const std::string& equation, const std::string& stepper, doub
                       << "initial = 'z'\n"
                       << equation << "\n";
   Recipe recipe;
-  recipe.stage.model.value = path.string();
-  recipe.stage.stepper.value = stepper;
-  recipe.stage.size = Given<Length>{{1.3, false}, {}};
-  recipe.stage.step = step;
-  recipe.stage.until = 1;
-  recipe.stage.interpolate = true;
+  recipe.stages[0].model.value = path.string();
+  recipe.stages[0].stepper.value = stepper;
+  recipe.stages[0].size = Given<Length>{{1.3, false}, {}};
+  recipe.stages[0].step = step;
+  recipe.stages[0].until = 1;
+  recipe.stages[0].interpolate = true;
   return Run(resolve(recipe, builtin_shape("builtin:sphere?n=642")));
 }
 

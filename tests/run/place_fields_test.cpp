@@ -20,9 +20,9 @@ Run standing(const std::string& initial, TriangleMesh shape, const std::string& 
   std::ofstream(path) << "name = 'standing'\ntitle = 't'\ncite = 'c'\nsummary = 's'\nwavelength = 1\n[species.u]\n"
                       << "diffusion = '" << diffusion << "'\nrate = '0'\ninitial = '" << initial << "'\n";
   Recipe recipe;
-  recipe.stage.model.value = path.string();
-  recipe.stage.stepper.value = stepper;
-  recipe.stage.size = Given<Length>{{0.3, true}, {}};
+  recipe.stages[0].model.value = path.string();
+  recipe.stages[0].stepper.value = stepper;
+  recipe.stages[0].size = Given<Length>{{0.3, true}, {}};
   return Run(resolve(recipe, std::move(shape)));
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 Run start(const std::string& shape) {  // in a test, Run is a member of the test
   Recipe recipe;
-  recipe.stage.size = Given<Length>{{0.2, true}, {}};
+  recipe.stages[0].size = Given<Length>{{0.2, true}, {}};
   return Run(resolve(recipe, builtin_shape(shape)));
 }
 

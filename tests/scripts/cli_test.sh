@@ -159,7 +159,7 @@ json 'd["exit"] == 3 and "missing.obj" in d["error"]'
 json 'd["exit"] == 2'
 succeed grow $sphere "${quick[@]}" -o a.ply,a.glb --picture a.png --picture-size 32 --json
 is_json stdout
-json 'd["growth"]["steps"] == 3 and d["growth"]["status"] == "steps_reached"'
+json 'd["stages"][0]["growth"]["steps"] == 3 and d["stages"][0]["growth"]["status"] == "steps_reached"'
 json '[f["path"] for f in d["files"]] == ["a.ply", "a.glb", "a.png"] and all(f["bytes"] > 0 for f in d["files"])'
 
 # --- what is said, and where ---------------------------------------------------------------------------------
@@ -221,9 +221,9 @@ grep -q 'class="failure"' broken/index.html || fail "the index does not show wha
 # --- recipes: options override them --------------------------------------------------------------------------
 printf 'shape = "%s"\n[stage]\nmodel = "turing"\nsteps = 2\nsize = 0.3\n[stage.parameters]\ns = 0.06\n' $sphere >own.toml
 succeed grow --recipe own.toml --set Da=0.15 --steps 1 --detail 0 -o a.ply --json
-json 'd["growth"]["steps"] == 1 and d["parameters"]["s"] == 0.06 and d["parameters"]["Da"] == 0.15'
+json 'd["stages"][0]["growth"]["steps"] == 1 and d["stages"][0]["parameters"]["s"] == 0.06 and d["stages"][0]["parameters"]["Da"] == 0.15'
 succeed grow --recipe own.toml --set s=0.07,Da=0.16 --size 1.5u --detail 0 -o a.ply --json
-json 'd["growth"]["steps"] == 2 and d["parameters"]["s"] == 0.07 and d["parameters"]["Da"] == 0.16 and d["size"] == 1.5'
+json 'd["stages"][0]["growth"]["steps"] == 2 and d["stages"][0]["parameters"]["s"] == 0.07 and d["stages"][0]["parameters"]["Da"] == 0.16 and d["stages"][0]["size"] == 1.5'
 
 # --- a vertex with too many edges for Loop -------------------------------------------------------------------
 python3 - <<'PYTHON'

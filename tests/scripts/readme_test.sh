@@ -8,8 +8,8 @@ work=$2/readme_test
 rm -rf "$work" && mkdir -p "$work" && cd "$work" || exit 1
 failures=0
 
-# The README's cow: any mesh of that name.
-"$pelage" grow builtin:animal?n=600 --steps 0 --detail 0 -o cow.obj >log 2>&1 || { cat log; exit 1; }
+# The README's cow and scan: any meshes of these names.
+"$pelage" grow builtin:animal?n=600 --steps 0 --detail 0 -o cow.obj,scan.ply >log 2>&1 || { cat log; exit 1; }
 
 run_line() {
   local -a words

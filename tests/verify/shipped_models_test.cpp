@@ -22,11 +22,11 @@ constexpr double least_contrast = 5e-3;
 
 Program program(const std::string& model, const TriangleMesh& shape, double size, std::uint64_t seed = 1) {
   Recipe recipe;
-  recipe.stage.model.value = model;
-  recipe.stage.size = Given<Length>{{size, false}, {}};
-  recipe.stage.seed = seed;
-  recipe.stage.interpolate = true;
-  return resolve(recipe, shape);
+  recipe.stages[0].model.value = model;
+  recipe.stages[0].size = Given<Length>{{size, false}, {}};
+  recipe.stages[0].seed = seed;
+  recipe.stages[0].interpolate = true;
+  return resolve(recipe, shape).front();
 }
 
 void expect_pattern(const FinishedPattern& pattern) {

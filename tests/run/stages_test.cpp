@@ -1,0 +1,224 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "catalog/resolve.h"
+#include "pelage/error.h"
+#include "run/random_points.h"
+#include "run/run.h"
+#include "shape/generators.h"
+#include "shape/vectors.h"
+
+namespace pelage {
+namespace {
+
+using Growth = Run;  // in a test, Run is a function of its own
+
+const char* two_stages = R"~(
+[[stage]]
+name = "large"
+model = "turing"
+size = 0.4
+steps = 60
+
+[[stage]]
+name = "small"
+model = "turing"
+size = 0.3
+mask = "large.b < 4"
+pin = { a = 4 }
+initial = { b = "4 + 0.1*large.b" }
+steps = 40
+)~";
+
+Growth start(const std::string& recipe, const std::string& shape = "builtin:sphere?n=642") {
+  return Growth(resolve(parse_recipe(recipe, "test.toml"), builtin_shape(shape)));
+}
+
+Growth finished(const std::string& recipe, const std::string& shape = "builtin:sphere?n=642") {
+  Growth run = start(recipe, shape);
+  while (!run.done()) run.advance(100);
+  EXPECT_NE(run.summary().status, RunStatus::failed) << run.summary().message;
+  return run;
+}
+
+std::string message_of(const std::string& recipe) {
+  try {
+    start(recipe);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// One stage of pure diffusion from a step at the equator.
+std::string diffusion(const std::string& more) {
+  return "[stage]\nmodel = \"" + std::string(PELAGE_BINARY_DIR) + "/stage-diffusion.toml\"\nsize = 0.5\n" + more;
+}
+
+class DiffusionModel : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    FILE* file = std::fopen((std::string(PELAGE_BINARY_DIR) + "/stage-diffusion.toml").c_str(), "w");
+    ASSERT_TRUE(file);
+    std::fputs(
+        "name = \"diffusion\"\nwavelength = 1\n[species.u]\ndiffusion = \"D\"\nrate = \"0\"\n"
+        "initial = \"if(z > 0, 2, 1)\"\n[parameters]\nD = 1\n[suggested]\nstep = 0.01\nend = 0.5\n",
+        file);
+    std::fclose(file);
+  }
+};
+
+TEST(Stages, SlicesAndCheckpointsInsideTheSecondStageKeepTheBits) {
+  Growth whole = start(two_stages), sliced = start(two_stages);
+  whole.advance(100);
+  EXPECT_TRUE(whole.done());
+  EXPECT_EQ(whole.stage(), 1);
+  for (const std::int64_t steps : {60, 17}) {  // the end of the first stage, and inside the second
+    sliced.advance(steps);
+    Growth resumed = start(two_stages);
+    resumed.restore(sliced.checkpoint());
+    EXPECT_EQ(resumed.checkpoint(), sliced.checkpoint());
+    resumed.advance(1000);
+    EXPECT_EQ(resumed.checkpoint(), whole.checkpoint());
+  }
+  EXPECT_EQ(sliced.stage(), 1);
+  sliced.advance(1000);
+  EXPECT_EQ(sliced.checkpoint(), whole.checkpoint());
+}
+
+TEST(Stages, FrozenCoefficientsStayAndTheOthersGrow) {
+  Growth run = start(two_stages);
+  run.advance(61);
+  const Growth::FinishedStage& large = run.finished().front();
+  const Vector b = run.operators().discretisation().values * large.fields[1];
+  const Vector before = run.coefficients()[1];
+  run.advance(1000);
+  const Vector& after = run.coefficients()[1];
+  int frozen = 0;
+  for (Eigen::Index i = 0; i < b.size(); ++i) {
+    EXPECT_EQ(after[i] == before[i], b[i] < 4) << i;
+    frozen += b[i] < 4;
+  }
+  EXPECT_GT(frozen, b.size() / 20);
+  EXPECT_LT(frozen, b.size() / 2);
+}
+
+TEST(Stages, AMaskOfNothingChangesNoBitAndOneOfEverythingNothingMoves) {
+  const std::string plain = "[stage]\nmodel = \"turing\"\nsize = 0.5\nsteps = 20\n";
+  const Growth free = finished(plain), nothing = finished(plain + "mask = \"x > 100\"\n"),
+               all = finished(plain + "mask = \"x < 100\"\n");
+  EXPECT_EQ(free.checkpoint(), nothing.checkpoint());
+  EXPECT_EQ(all.coefficients(), all.operators().initial());
+}
+
+TEST(Stages, PinnedValuesAreThoseOfThePins) {
+  const Growth run =
+      finished("[stage]\nmodel = \"turing\"\nsize = 0.5\nsteps = 20\nmask = \"z > 0.2\"\npin = { b = \"3 + z\" }\n");
+  const Vector b = run.operators().discretisation().values * run.coefficients()[1];
+  const auto& position = run.operators().system().sampling->position;
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    if (position[i][2] < 0.7) continue;  // less than two rings inside
+    EXPECT_NEAR(b[static_cast<Eigen::Index>(i)], 3 + position[i][2], 1e-8);
+  }
+}
+
+/// Samples at least four edges below or above the equator, further than basis functions reach across it.
+std::vector<double> samples_away_from_the_equator(const Run& run, bool above) {
+  const Vector u = run.operators().discretisation().values * run.coefficients()[0];
+  const auto& position = run.operators().system().sampling->position;
+  std::vector<double> samples;
+  for (std::size_t i = 0; i < position.size(); ++i)
+    if (above ? position[i][2] > 0.3 : position[i][2] < -0.3) samples.push_back(u[static_cast<Eigen::Index>(i)]);
+  return samples;
+}
+
+TEST_F(DiffusionModel, NothingPassesTheBorderOfAnExcludedRegion) {
+  const auto below = [](const std::string& more) {
+    const Growth run = finished(diffusion(more), "builtin:sphere?n=2562");
+    if (!more.starts_with("until")) {
+      for (const double u : samples_away_from_the_equator(run, true)) EXPECT_NEAR(u, 2, 1e-3);
+    }
+    const auto [low, high] = std::ranges::minmax(samples_away_from_the_equator(run, false));
+    EXPECT_NEAR(low, high, 1e-3);
+    return low;
+  };
+  const std::string cut = "mask = \"z > 0\"\ninside = \"excluded\"\nuntil = ";
+  const double early = below(cut + "2"), late = below(cut + "10");
+  EXPECT_NEAR(early, 1, 0.06);                 // the elements that the border crosses had values between 1 and 2
+  EXPECT_NEAR(late, early, 0.01);              // ripples of the cut elements settle slowly
+  EXPECT_NEAR(below("until = 2"), 1.5, 0.01);  // without the mask
+}
+
+TEST_F(DiffusionModel, FrozenRegionsFeedTheirSurroundings) {
+  const Growth run = finished(diffusion("mask = \"z > 0\"\ninitial = { u = 1 }\npin = { u = 2 }\nuntil = 20\n"),
+                              "builtin:sphere?n=2562");
+  for (const double u : samples_away_from_the_equator(run, false)) EXPECT_NEAR(u, 2, 0.02);
+}
+
+TEST_F(DiffusionModel, AMapOfAConstantIsThatConstant) {
+  const Growth number = finished(diffusion("parameters = { D = 4 }\n")),
+               formula = finished(diffusion("parameters = { D = \"2*2\" }\n")),
+               size = finished(diffusion("size-map = \"2\"\n"));
+  EXPECT_EQ(number.coefficients(), formula.coefficients());
+  // a map of the size also makes a finer mesh; both are about the same function
+  EXPECT_NEAR(number.coefficients()[0].maxCoeff(), size.coefficients()[0].maxCoeff(), 1e-3);
+}
+
+TEST(Stages, FieldsAreCarriedOver) {
+  const std::string recipe = std::string(two_stages) + R"~(
+[[stage]]
+model = "turing"
+from = "small"
+size = 0.4
+steps = 0
+)~";
+  const Growth run = finished(recipe);
+  const auto& small = run.finished()[1].fields;
+  for (std::size_t i = 0; i < small.size(); ++i)
+    EXPECT_LT((run.coefficients()[i] - small[i]).norm(), 1e-8 * small[i].norm());
+  const CoatFields fields = run.fields();
+  EXPECT_EQ(fields.species, (std::vector<std::string>{"large.a", "large.b", "small.a", "small.b", "a", "b"}));
+}
+
+TEST(Stages, FaultsAreLocated) {
+  const std::string first = "[[stage]]\nname = \"one\"\nmodel = \"turing\"\n",
+                    second = "[[stage]]\nmodel = \"turing\"\n";
+  EXPECT_EQ(message_of(first + second + "from = \"onne\"\n"),
+            "test.toml:6:8: unknown earlier stage \"onne\"; did you mean \"one\"? known: one");
+  EXPECT_NE(message_of(first + second + "mask = \"one.c < 4\"\n").find("test.toml:6:9: there is no field \"one.c\""),
+            std::string::npos);
+  EXPECT_NE(message_of(first + second + "pin = { c = 4 }\n").find("test.toml:6:13: unknown species \"c\""),
+            std::string::npos);
+  EXPECT_NE(message_of(first + second + "pin = { b = 4 }\n").find("nothing to pin without a mask"), std::string::npos);
+  EXPECT_NE(message_of(first + second + "initial = { b = \"a\" }\n").find("cannot depend on species"),
+            std::string::npos);
+  EXPECT_NE(message_of(first + second + "mask = \"b > 1\"\n").find("cannot depend on them"), std::string::npos);
+  EXPECT_NE(message_of(first + second + "name = \"one\"\n").find("two stages are called"), std::string::npos);
+  EXPECT_NE(message_of(first + second + "inside = \"frosen\"\n").find("did you mean \"frozen\""), std::string::npos);
+  EXPECT_NE(message_of(first + second + "method = \"linear\"\n").find("all stages have the method"), std::string::npos);
+  EXPECT_NE(message_of(first + "size-map = \"z\"\n").find("must be greater than 0"), std::string::npos);
+  EXPECT_NE(message_of(first + "parameters = { ss = \"x\" }\n").find("unknown parameter \"ss\""), std::string::npos);
+  EXPECT_NE(message_of(first + "[[look.layers]]\ncolor = \"#12\"\n").find("test.toml:5"), std::string::npos);
+  EXPECT_NE(message_of(first + "[[look.layers]]\ncolor = \"#123456\"\nopacity = \"one.b + c\"\n").find("test.toml:6"),
+            std::string::npos);
+}
+
+TEST(RandomPoints, KeepTheirDistanceAndLeaveNoGap) {
+  const auto positions = builtin_shape("builtin:torus?n=2000").points;
+  const double spacing = 0.3;
+  const std::vector<double> distance = distance_to_random_points(positions, spacing, 1);
+  std::vector<Point> chosen;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    EXPECT_LT(distance[i], 1);
+    if (distance[i] == 0) chosen.push_back(positions[i]);
+  }
+  EXPECT_GT(chosen.size(), 20);
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) EXPECT_GE(length(difference(chosen[i], chosen[j])), spacing);
+  EXPECT_NE(distance, distance_to_random_points(positions, spacing, 2));
+}
+
+}  // namespace
+}  // namespace pelage
