@@ -48,7 +48,7 @@ TEST(MovingSurface, SlicesAndCheckpointsKeepTheBits) {
       recipe.motion.mode.value = mode;
       recipe.motion.growth = 1e-4;
       recipe.stage.stepper.value = stepper;
-      recipe.stage.size = Given<Length>{{1, false}, {}};
+      recipe.stage.size = Given<Length>{{2, false}, {}};
       if (recipe.stage.stepper.value != "sbdf2") recipe.stage.step = 0.02;
       const auto start = [&] { return Growth(resolve(recipe, noisy_sphere("162"))); };
       Growth whole = start(), sliced = start(), resumed = start();
