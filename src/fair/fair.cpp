@@ -1,5 +1,6 @@
 #include "fair/fair.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/number.h"
@@ -17,7 +18,7 @@ namespace pelage {
 namespace {
 
 /// The noise is taken off when the vertices have moved by this share of its standard deviation: what has moved is a
-/// little less than the noise (its longest waves look like shape), and the estimate a little more.
+/// little less than the noise (its longest waves look like shape), and the estimate more (details look like noise).
 constexpr double noise_share = 0.95;
 
 void require_between(const std::optional<double>& value, double low, double high, const std::string& name) {
@@ -101,7 +102,8 @@ Fairing::Fairing(const TriangleMesh& mesh, const FairOptions& options) : options
   parts_ = std::make_unique<Parts>(mesh, options.slide);
   report_.mean_edge = mean_edge(parts_->topology, mesh.points);
   if (!(report_.mean_edge > 0)) return;
-  report_.noise = options.noise ? *options.noise : estimate_noise(parts_->topology, mesh.points) / report_.mean_edge;
+  roughness_ = estimate_noise(parts_->topology, mesh.points) / report_.mean_edge;
+  report_.noise = options.noise.value_or(roughness_);
   parts_->method = make_method(parts_->state, options, report_);
   most_steps_ = options.steps.value_or(report_.noise > 0 ? parts_->method->most_steps() : 0);
   report_.volume_before = parts_->closed.volume(mesh.points);
@@ -126,10 +128,18 @@ void Fairing::step() {
   const double part = (wanted - moved_before) / (report_.moved - moved_before);
   for (std::size_t v = 0; v < points.size(); ++v)
     for (std::size_t k = 0; k < 3; ++k) points[v][k] = before[v][k] + part * (points[v][k] - before[v][k]);
-  measure();
+  measure_way();
 }
 
-void Fairing::measure() { report_.moved = moved_along_normals(parts_->state, parts_->from) / report_.mean_edge; }
+void Fairing::measure() {
+  measure_way();
+  if (options_.noise || options_.steps) return;
+  // What still looks like noise when the noise is off is the shape, and the estimate at the start held it as well.
+  const double left = estimate_noise(parts_->topology, parts_->state.points) / report_.mean_edge;
+  report_.noise = std::sqrt(std::max(0.0, roughness_ * roughness_ - left * left));
+}
+
+void Fairing::measure_way() { report_.moved = moved_along_normals(parts_->state, parts_->from) / report_.mean_edge; }
 
 std::vector<Point> Fairing::points() const {
   std::vector<Point> points = parts_->state.points;

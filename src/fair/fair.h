@@ -24,7 +24,7 @@ struct FairOptions {
 };
 
 struct FairReport {
-  double noise = 0;      ///< that was assumed, in mean edges
+  double noise = 0;      ///< that was assumed, in mean edges; an estimate is refined at every step
   double mean_edge = 0;  ///< of the input, world units
   int steps = 0;
   double moved = 0;                            ///< root mean square along the normals, in mean edges
@@ -73,9 +73,11 @@ class Fairing {
  private:
   struct Parts;
   void measure();
+  void measure_way();
 
   FairOptions options_;
   FairReport report_;
+  double roughness_ = 0;  ///< of the input, in mean edges: its noise, and those details of the shape that look like it
   int most_steps_ = 0;
   bool finished_ = false;
   std::unique_ptr<Parts> parts_;

@@ -14,29 +14,22 @@ namespace {
 
 constexpr int unknowns = 6;  ///< of a quadratic height function
 
-/// The vertices within two edges of v, itself included.
-std::vector<Index> two_rings(const Topology& topology, Index v) {
-  std::vector<Index> near, ring, all = {v};
-  topology.one_ring(v, near);
-  for (Index w : near) {
-    topology.one_ring(w, ring);
-    all.insert(all.end(), ring.begin(), ring.end());
-    all.push_back(w);
-  }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
-}
+/// Below the quantile lie 90 % of the fits: few enough to leave out edges, enough for noise that sits on some vertices
+/// only.
+constexpr double share = 0.9, normal_quantile = 1.2816;  ///< the latter of the normal distribution at that share
 
-/// Root mean square of what the best quadratic in the plane across `normal` leaves of the values at the vertices near
-/// v, per degree of freedom; negative if there are too few vertices.
+/// The same quantile of sqrt(chi^2 / n) for n degrees of freedom (Wilson, Hilferty 1931).
+double gaussian_quantile(double n) { return std::pow(1 - 2 / (9 * n) + normal_quantile * std::sqrt(2 / (9 * n)), 1.5); }
+
+/// Root mean square of what the best quadratic in the plane across `normal` leaves of the values at the vertices
+/// `near`, per degree of freedom and in units of the quantile of Gaussian noise; negative if there are too few
+/// vertices.
 template <class Value>
-double residual(const Topology& topology, const std::vector<Point>& points, const Vector3& normal, Index v,
+double residual(const std::vector<Point>& points, const Vector3& normal, const std::vector<Index>& near,
                 const Value& value) {
-  const std::vector<Index> near = two_rings(topology, v);
   const auto count = static_cast<Eigen::Index>(near.size());
-  if (count < unknowns + 4 || !(normal.norm() > 0)) return -1;
-  const Vector3 centre = vector3(points[v]), x = normal.unitOrthogonal(), y = normal.cross(x);
+  if (count <= unknowns || !(normal.norm() > 0)) return -1;
+  const Vector3 centre = vector3(points[near[0]]), x = normal.unitOrthogonal(), y = normal.cross(x);
   double scale = 0;
   for (Index w : near) scale = std::max(scale, (vector3(points[w]) - centre).norm());
   if (!(scale > 0)) return -1;
@@ -49,14 +42,9 @@ double residual(const Topology& topology, const std::vector<Point>& points, cons
     values[i] = value(near[i]);
   }
   const Eigen::VectorXd fit = a.colPivHouseholderQr().solve(values);
-  return std::sqrt((values - a * fit).squaredNorm() / static_cast<double>(count - unknowns));
+  const auto freedom = static_cast<double>(count - unknowns);
+  return std::sqrt((values - a * fit).squaredNorm() / freedom) / gaussian_quantile(freedom);
 }
-
-/// Below the quantile lie 40 % of the fits: few enough to leave out edges, enough for noise that sits on some vertices
-/// only.
-constexpr double share = 0.4;
-/// The same quantile of sqrt(chi^2 / n), n = 13 degrees of freedom: 19 vertices around one of valence 6.
-constexpr double gaussian_quantile = 0.9257;
 
 /// The quantile of the residuals at all vertices; `make_value(v, normal)` gives the function that is fitted at v.
 template <class MakeValue>
@@ -67,13 +55,14 @@ double noise_of_fits(const Topology& topology, const std::vector<Point>& points,
   parallel_for(
       points.size(),
       [&](std::size_t begin, std::size_t end) {
+        std::vector<Index> near;
         for (std::size_t v = begin; v < end; ++v) {
-          Vector3 wide = normal[v];  // one normal is too noisy to measure heights along
-          std::vector<Index> ring;
-          topology.one_ring(static_cast<Index>(v), ring);
-          for (Index w : ring) wide += normal[w];
+          topology.one_ring(static_cast<Index>(v), near);
+          near.insert(near.begin(), static_cast<Index>(v));
+          Vector3 wide = Vector3::Zero();  // one normal is too noisy to measure heights along
+          for (Index w : near) wide += normal[w];
           wide.normalize();
-          all[v] = residual(topology, points, wide, static_cast<Index>(v), make_value(v, wide));
+          all[v] = residual(points, wide, near, make_value(v, wide));
         }
       },
       256);
@@ -81,7 +70,7 @@ double noise_of_fits(const Topology& topology, const std::vector<Point>& points,
   if (all.empty()) return 0;
   const auto quantile = all.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(all.size() - 1));
   std::nth_element(all.begin(), quantile, all.end());
-  return *quantile / gaussian_quantile;
+  return *quantile;
 }
 
 }  // namespace

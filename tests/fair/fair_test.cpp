@@ -142,6 +142,22 @@ TEST(Fair, LeavesACleanMeshNearlyAsItIs) {
   EXPECT_LT(compare(fair(clean).mesh, clean).distance, 1e-5);
 }
 
+/// Where triangles are large against the bends of the surface, the shape looks like noise.
+TEST(Fair, DoesNotMakeCoarseCurvedShapesWorse) {
+  for (const auto& [shape, sigma] :
+       {std::pair{"builtin:animal?n=500", 0.1}, std::pair{"builtin:animal?n=1000", 0.1},
+        std::pair{"builtin:animal?n=2000", 0.05}, std::pair{"builtin:torus?n=200", 0.03}}) {
+    const TriangleMesh truth = builtin_shape(shape), noisy = with_noise(truth, sigma), clean = fair(noisy).mesh;
+    EXPECT_LT(errors(clean, truth).mean, errors(noisy, truth).mean) << shape;
+    EXPECT_LT(compare(clean, truth).distance, compare(noisy, truth).distance) << shape;
+    EXPECT_EQ(errors(clean, truth).flipped, 0U) << shape;
+  }
+  for (const char* shape : {"builtin:torus?n=200", "builtin:knot?n=600"}) {
+    const TriangleMesh truth = builtin_shape(shape);
+    EXPECT_LT(compare(fair(truth).mesh, truth).distance, 1e-4) << shape;
+  }
+}
+
 TEST(Fair, RefusesWhatItDoesNotKnow) {
   const TriangleMesh mesh = builtin_shape("builtin:sphere?n=162");
   EXPECT_THROW(fair(mesh, {.method = "gided"}), Error);

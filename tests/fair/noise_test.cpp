@@ -22,6 +22,14 @@ TEST(Noise, IsFoundOnSmoothAndOnEdgedShapes) {
     }
 }
 
+/// Triangles that are large against the bends: two rings would find three times as much.
+TEST(Noise, IsFoundOnACoarseShape) {
+  for (const double sigma : {0.05, 0.1}) {
+    const double found = estimated(testing::with_noise(builtin_shape("builtin:torus?n=200"), sigma));
+    EXPECT_NEAR(found / sigma, 1, 0.35) << sigma;
+  }
+}
+
 TEST(Noise, IsNearlyNoneWhereThereIsNone) {
   for (const char* shape : {"builtin:sphere?n=2562", "builtin:cube?n=3000"})
     EXPECT_LT(estimated(builtin_shape(shape)), 1e-3) << shape;
