@@ -42,6 +42,25 @@ TEST(ConjugateGradient, TheSolutionAsFirstGuessNeedsNoIteration) {
   EXPECT_EQ(ConjugateGradient().solve(a, diagonal(a).cwiseInverse(), b, x).iterations, 0);
 }
 
+TEST(ConjugateGradient, UnknownsWithoutPreconditionerAreHeld) {
+  const SparseMatrix a = chain(40, 2.2);
+  const Vector b = random_vector(40, 4), guess = random_vector(40, 5);
+  Vector inverse_diagonal = diagonal(a).cwiseInverse();
+  Eigen::MatrixXd system = dense(a);
+  Vector right = b;
+  for (Eigen::Index i = 0; i < 40; i += 3) {  // the same by rows of the unit matrix
+    inverse_diagonal[i] = 0;
+    system.row(i).setZero();
+    system(i, i) = 1;
+    right[i] = guess[i];
+  }
+  Vector x = guess;
+  EXPECT_TRUE(ConjugateGradient().solve(a, inverse_diagonal, b, x, {.tolerance = 1e-13}).converged);
+  const Vector expected = system.partialPivLu().solve(right);
+  EXPECT_LT((x - expected).norm(), 1e-10 * expected.norm());
+  for (Eigen::Index i = 0; i < 40; i += 3) EXPECT_EQ(x[i], guess[i]);
+}
+
 TEST(ConjugateGradient, ZeroRightSideHasTheZeroSolution) {
   const SparseMatrix a = chain(20, 2.5);
   Vector x = random_vector(20, 4);

@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "catalog/resolve.h"
+#include "run/run.h"
+#include "shape/generators.h"
+#include "shape/vectors.h"
+
+namespace pelage {
+namespace {
+
+class EveryRecipe : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(All, EveryRecipe, ::testing::ValuesIn(recipe_names()), [](const auto& test) {
+  std::string name = test.param;
+  std::ranges::replace(name, '-', '_');
+  return name;
+});
+
+TEST_P(EveryRecipe, RunsSmallAndIsDressed) {
+  Recipe recipe = load_recipe(GetParam());
+  EXPECT_EQ(recipe.name, GetParam());
+  EXPECT_FALSE(recipe.summary.empty());
+  EXPECT_EQ(recipe.shape, "builtin:animal");
+  for (Stage& stage : recipe.stages) {
+    stage.size->value.value = std::max(stage.size->value.value, 0.08);
+    stage.steps = 3;
+  }
+  pelage::Run run(resolve(recipe, builtin_shape("builtin:animal?n=1000")));
+  while (!run.done()) run.advance(10);
+  EXPECT_NE(run.summary().status, RunStatus::failed) << run.summary().message;
+  const TriangleMesh coat = dress(run.fields(), recipe.look);
+  for (const double c : coat.find("color")->values) EXPECT_TRUE(c >= 0 && c <= 1) << c;
+}
+
+/// A connected set of vertices.
+struct Spot {
+  Point centre{};
+  bool large = false;  ///< some of it is frozen
+};
+
+std::vector<Spot> spots(const Topology& topology, const std::vector<Point>& position, std::vector<char> in_spot,
+                        const std::vector<char>& frozen) {
+  std::vector<Spot> found;
+  std::vector<Index> ring;
+  for (Index first = 0; first < topology.vertex_count; ++first) {
+    if (!std::exchange(in_spot[static_cast<std::size_t>(first)], 0)) continue;
+    Spot& spot = found.emplace_back();
+    std::vector<Index> members = {first};
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      const auto member = static_cast<std::size_t>(members[k]);
+      spot.large |= frozen[member] != 0;
+      for (std::size_t d = 0; d < 3; ++d) spot.centre[d] += position[member][d];
+      topology.one_ring(members[k], ring);
+      for (const Index n : ring)
+        if (std::exchange(in_spot[static_cast<std::size_t>(n)], 0)) members.push_back(n);
+    }
+    for (double& c : spot.centre) c /= static_cast<double>(members.size());
+  }
+  return found;
+}
+
+double distance_to_nearest(const Point& p, const std::vector<Point>& others) {
+  double nearest = 1e9;
+  for (const Point& q : others) nearest = std::min(nearest, length(difference(p, q)));
+  return nearest;
+}
+
+constexpr double large_spacing = 0.7;
+
+/// A cascade of spots on the unit sphere.
+struct Cascade {
+  std::vector<Point> large, small;   ///< centres; spots that have grown onto a large one are part of it
+  std::vector<Point> outside, dark;  ///< vertices outside of the frozen regions, and those of them in spots
+  explicit Cascade(const std::string& name) {
+    Recipe recipe = load_recipe(name);
+    const double factor = large_spacing / recipe.stages[0].size->value.value;
+    for (Stage& stage : recipe.stages) stage.size = {{stage.size->value.value * factor, false}, {}};
+    pelage::Run run(resolve(recipe, builtin_shape("builtin:sphere?n=10242")));
+    while (!run.done()) run.advance(1000);
+    const SparseMatrix& values = run.operators().discretisation().values;
+    const Vector first = values * run.finished()[0].fields[1], b = values * run.coefficients()[1];
+    const auto& position = run.operators().system().sampling->position;
+    std::vector<char> frozen, in_spot;
+    for (std::size_t v = 0; v < position.size(); ++v) {
+      const auto i = static_cast<Eigen::Index>(v);
+      frozen.push_back(first[i] < 4);
+      in_spot.push_back(frozen[v] || b[i] < 2.5);
+      if (!frozen[v]) outside.push_back(position[v]);
+      if (!frozen[v] && in_spot[v]) dark.push_back(position[v]);
+    }
+    for (const Spot& s : spots(run.operators().discretisation().topology, position, in_spot, frozen))
+      (s.large ? large : small).push_back(s.centre);
+  }
+};
+
+TEST(Cascades, SmallSpotsOfTheCheetahKeepAwayFromTheLargeOnes) {
+  const Cascade cheetah("cheetah");
+  EXPECT_GT(cheetah.large.size(), 15);
+  EXPECT_GT(cheetah.small.size(), cheetah.large.size());
+  for (const Point& p : cheetah.small) EXPECT_GE(distance_to_nearest(p, cheetah.large), large_spacing / 2);
+}
+
+TEST(Cascades, SmallSpotsOfTheLeopardRingTheLargeOnes) {
+  const Cascade leopard("leopard");
+  EXPECT_GT(leopard.large.size(), 15);
+  const auto share_near = [&](const std::vector<Point>& points) {
+    const auto near = std::ranges::count_if(
+        points, [&](const Point& p) { return distance_to_nearest(p, leopard.large) < 0.43 * large_spacing; });
+    return static_cast<double>(near) / static_cast<double>(points.size());
+  };
+  EXPECT_GT(share_near(leopard.dark), 1.3 * share_near(leopard.outside))
+      << share_near(leopard.dark) << ' ' << share_near(leopard.outside);
+}
+
+}  // namespace
+}  // namespace pelage
