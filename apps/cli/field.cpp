@@ -65,21 +65,16 @@ void require_one_guide(const FieldCommand& o) {
   if (kinds == 0 && o.smooth) throw Error(Fault::usage, "--smooth needs --axis, --curvature, or --from with --to");
 }
 
-std::vector<Guide> find_guides(const FieldCommand& o, const TriangleMesh& mesh, const Connection& c) {
-  const double length = o.smooth.value_or(0.05) * bounding_diagonal(mesh);
-  const double weight = 1 / (length * length);
-  const Sense sense = o.across ? Sense::across : Sense::along;
-  std::vector<Guide> guides;
-  if (!o.axis.empty()) guides = axis_guides(c, parse_point("--axis", o.axis), weight, sense);
-  if (o.curvature) {
-    const double mean = bounding_diagonal(mesh) / 4;  // a typical radius: its bends count with the full weight
-    guides = curvature_guides(c, loop_discretisation(c.topology), mesh.points, weight * mean * mean, sense);
-  }
-  if (!o.from.empty() || !o.to.empty())
-    guides = gradient_guides(c, mesh.points, harmonic_function(c, o.from, o.to), weight, sense);
-  for (const std::string& text : o.strokes)
-    for (const Guide& g : stroke_guides(c, mesh.points, parse_stroke(text))) guides.push_back(g);
-  return guides;
+FieldWish wish_of(const FieldCommand& o, double diagonal) {
+  FieldWish wish;
+  if (!o.axis.empty()) wish.axis = parse_point("--axis", o.axis);
+  wish.curvature = o.curvature;
+  wish.from = o.from;
+  wish.to = o.to;
+  wish.across = o.across;
+  wish.smooth = o.smooth.value_or(default_field_smoothing) * diagonal;
+  for (const std::string& text : o.strokes) wish.strokes.push_back(parse_stroke(text));
+  return wish;
 }
 
 struct Counts {
@@ -143,7 +138,8 @@ void run_field(const FieldCommand& o) {
   ProgressBar bar(o.quiet || o.json ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
   const TriangleMesh mesh = read_shape(o.shape).mesh;
   const Connection c = make_connection(make_topology(mesh.points.size(), mesh.triangles), mesh.points);
-  const DirectionField field = direction_field(c, o.n, find_guides(o, mesh, c));
+  const double diagonal = bounding_diagonal(mesh);
+  const DirectionField field = direction_field(c, o.n, find_guides(wish_of(o, diagonal), c, mesh.points, diagonal));
   for (const std::string& path : o.outputs) write_mesh(with_field(mesh, c, field), path);
   if (!o.picture.empty()) draw(o, mesh, c, field, bar.progress());
   bar.clear();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pelage/error.h"
+#include "pelage/point.h"
 
 namespace pelage {
 
@@ -26,6 +27,14 @@ struct Length {
 /// "0.04" is a fraction of the diagonal; "4mm", "2cm", "0.1m", "3in", "1.5u" are world units, with metres as the unit
 /// of the file for the metric ones ("u": the file's own unit, whatever it is). Error(Fault::usage) otherwise.
 Length parse_length(const std::string& text, const Location& where);
+
+/// What the directions of anisotropic diffusion follow.
+struct Directions {
+  std::optional<Point> axis;  ///< the projection of this vector; or
+  bool curvature = false;     ///< the larger principal curvature
+  bool across = false;        ///< turned by a right angle
+  Location where;
+};
 
 /// One run of a model to its stop. Formulas know the place (x, nx, k1, attribute(NAME), ...), the parameters of the
 /// model, the fields of earlier stages as STAGE.SPECIES, and `points` where it is set. docs/recipes.md.
@@ -49,6 +58,7 @@ struct Stage {
   Given<std::string> inside{"frozen", {}};  ///< "frozen": concentrations stay what they are, and diffuse outward;
                                             ///< "excluded": nothing reacts or diffuses inside, nor through the border
   std::vector<SpeciesFormula> pin;          ///< concentrations to which the inside of the mask is set at the start
+  std::optional<Directions> directions;     ///< default: the shape's attribute "direction", or its smoothest field
   std::optional<Given<Length>> points;      ///< spacing of random points; the formula `points` is the distance to the
                                             ///< nearest in spacings
   std::optional<Given<Length>> size;        ///< wanted wavelength of the pattern; default: 4 % of the diagonal

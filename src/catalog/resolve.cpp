@@ -19,6 +19,7 @@
 #include "react/stability.h"
 #include "run/random_points.h"
 #include "shape/normals.h"
+#include "shape/vectors.h"
 #include "time/stepper.h"
 
 namespace pelage {
@@ -108,6 +109,28 @@ void require_same_method(const Stage& first, const Stage& stage) {
                 stage.method.where);
 }
 
+void require_paper_can(const Model& model, const Location& where) {
+  if (!model.coupled().empty())
+    throw Error(Fault::usage,
+                "the stepper \"paper\" cannot grow \"" + model.name() +
+                    "\", whose species are coupled by lap(); take \"sbdf2\"",
+                where);
+  if (model.held())
+    throw Error(Fault::usage, "the stepper \"paper\" cannot hold parts of the surface; take \"sbdf2\"", where);
+}
+
+FieldWish resolve_directions(const Directions& d, const Model& model, double diagonal) {
+  if (!model.anisotropic())
+    throw Error(Fault::usage, "model \"" + model.name() + "\" diffuses the same in all directions", d.where);
+  if (d.axis && length(*d.axis) == 0) throw Error(Fault::usage, "the axis has length 0", d.where);
+  FieldWish wish;
+  wish.axis = d.axis;
+  wish.curvature = d.curvature;
+  wish.across = d.across;
+  wish.smooth = default_field_smoothing * diagonal;
+  return wish;
+}
+
 /// The smallest factor of a size map over the vertices of the shape; 1 where the map depends on what is not known yet.
 double smallest_factor(const Stage& stage, const TriangleMesh& shape) {
   if (!stage.size_map || shape.triangles.empty()) return 1;
@@ -143,17 +166,14 @@ Program resolve_stage(const Recipe& recipe, std::size_t number, const TriangleMe
   p.model = compile(stage_model(source, stage, known), numbers_of(stage));
   if (stage.points) known.push_back(points_attribute);
   require_places(p.model, shape, known);
-  if (stage.stepper.value == "paper" && !p.model.coupled().empty())
-    throw Error(Fault::usage,
-                "the stepper \"paper\" cannot grow \"" + p.model.name() +
-                    "\", whose species are coupled by lap(); take \"sbdf2\"",
-                stage.stepper.where);
+  if (stage.stepper.value == "paper") require_paper_can(p.model, stage.stepper.where);
   p.method = first.method.value;
   p.stepper = stage.stepper.value;
   const double diagonal = bounding_diagonal(shape);
   if (!(diagonal > 0)) throw Error(Fault::input, "the shape has no extent: all its vertices are at one place");
   p.size = world_length(stage.size, diagonal);
   p.length_unit = p.size / model_wavelength(plain);
+  if (stage.directions) p.directions = resolve_directions(*stage.directions, p.model, diagonal);
   p.excluded = stage.inside.value == "excluded";
   if (stage.points) p.points = world_length(stage.points, diagonal);
   const Suggestions& suggested = p.model.source().suggestions;

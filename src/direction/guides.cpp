@@ -204,4 +204,21 @@ std::vector<Guide> gradient_guides(const Connection& c, const std::vector<Point>
   return guides;
 }
 
+std::vector<Guide> find_guides(const FieldWish& wish, const Connection& c, const std::vector<Point>& points,
+                               double diagonal) {
+  const double weight = 1 / (wish.smooth * wish.smooth);
+  const Sense sense = wish.across ? Sense::across : Sense::along;
+  std::vector<Guide> guides;
+  const auto add = [&](const std::vector<Guide>& more) { guides.insert(guides.end(), more.begin(), more.end()); };
+  if (wish.axis) add(axis_guides(c, *wish.axis, weight, sense));
+  if (wish.curvature) {
+    const double mean = diagonal / 4;  // a typical radius: its bends count with the full weight
+    add(curvature_guides(c, loop_discretisation(c.topology), points, weight * mean * mean, sense));
+  }
+  if (!wish.from.empty() || !wish.to.empty())
+    add(gradient_guides(c, points, harmonic_function(c, wish.from, wish.to), weight, sense));
+  for (const std::vector<Point>& stroke : wish.strokes) add(stroke_guides(c, points, stroke));
+  return guides;
+}
+
 }  // namespace pelage

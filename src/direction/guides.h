@@ -1,6 +1,8 @@
 #pragma once
 // Wishes for direction_field: strokes, an axis, principal curvatures, the gradient of a harmonic function.
 
+#include <optional>
+
 #include "direction/direction_field.h"
 #include "discretise/discretisation.h"
 
@@ -32,5 +34,22 @@ std::vector<double> harmonic_function(const Connection& connection, const std::v
 /// `weight` [1 / world^2] whatever the length of the gradient; places without gradient are free.
 std::vector<Guide> gradient_guides(const Connection& connection, const std::vector<Point>& points,
                                    const std::vector<double>& function, double weight, Sense sense);
+
+/// Default of FieldWish::smooth, as a fraction of the diagonal.
+inline constexpr double default_field_smoothing = 0.05;
+
+/// What a field is to follow; all together, or nothing for the smoothest field.
+struct FieldWish {
+  std::optional<Point> axis;
+  bool curvature = false;
+  std::vector<Index> from, to;  ///< the harmonic function that is 0 at the first and 1 at the others
+  std::vector<std::vector<Point>> strokes;
+  bool across = false;  ///< the axis, the curvature or the gradient
+  double smooth = 0;    ///< length over which wishes, strokes excepted, are smoothed [world]
+};
+
+/// The guides of a wish; `diagonal` of the shape's bounding box.
+std::vector<Guide> find_guides(const FieldWish& wish, const Connection& connection, const std::vector<Point>& points,
+                               double diagonal);
 
 }  // namespace pelage

@@ -68,6 +68,21 @@ std::vector<Stage::SpeciesFormula> read_species(const Value& table, const std::s
   return list;
 }
 
+Directions read_directions(const Value& table) {
+  Directions d;
+  d.where = table.where();
+  if (const Value* axis = table.find("axis")) {
+    if (axis->items().size() != 3) throw Error(Fault::usage, "an axis is [X, Y, Z]", axis->where());
+    d.axis.emplace();
+    for (std::size_t k = 0; k < 3; ++k) (*d.axis)[k] = axis->items()[k].number();
+  }
+  if (const Value* v = table.find("curvature")) d.curvature = v->boolean();
+  if (const Value* v = table.find("across")) d.across = v->boolean();
+  if (d.axis.has_value() == d.curvature)
+    throw Error(Fault::usage, "directions follow either an axis or the curvature", d.where);
+  return d;
+}
+
 Stage read_stage(const Value& table, std::size_t count) {
   Stage s;
   s.name.value = "stage" + std::to_string(count);
@@ -78,6 +93,7 @@ Stage read_stage(const Value& table, std::size_t count) {
   s.size = optional_length(table, "size");
   s.size_map = optional_formula(table, "size-map");
   s.points = optional_length(table, "points");
+  if (const Value* v = table.find("directions")) s.directions = read_directions(*v);
   s.from = optional_text(table, "from");
   s.initial = read_species(table, "initial");
   s.mask = optional_formula(table, "mask");

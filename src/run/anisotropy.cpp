@@ -10,6 +10,7 @@
 #include "direction/direction_field.h"
 #include "pelage/error.h"
 #include "run/place_fields.h"
+#include "run/program.h"
 #include "shape/vectors.h"
 
 namespace pelage {
@@ -62,11 +63,13 @@ std::optional<std::array<std::vector<double>, 3>> given_directions(const Triangl
   return std::nullopt;
 }
 
-std::vector<Point> directions(const TriangleMesh& shape) {
-  const auto given = given_directions(shape);
-  if (!given)
-    return direction_field(make_connection(make_topology(shape.points.size(), shape.triangles), shape.points), 2)
-        .direction;
+std::vector<Point> directions(const TriangleMesh& shape, const std::optional<FieldWish>& wish) {
+  const auto given = wish ? std::nullopt : given_directions(shape);
+  if (!given) {
+    const Connection c = make_connection(make_topology(shape.points.size(), shape.triangles), shape.points);
+    const double diagonal = bounding_diagonal(shape);
+    return direction_field(c, 2, find_guides(wish.value_or(FieldWish{}), c, shape.points, diagonal)).direction;
+  }
   const auto& [x, y, z] = *given;
   std::vector<Point> list;
   for (std::size_t i = 0; i < x.size(); ++i) list.push_back(unit({x[i], y[i], z[i]}));
@@ -82,9 +85,9 @@ Tensor tensor(const Point& d, const Point& normal, double along, double across) 
 
 }  // namespace
 
-std::vector<Tensor> vertex_lines(const TriangleMesh& shape, int levels) {
+std::vector<Tensor> vertex_lines(const TriangleMesh& shape, const std::optional<FieldWish>& wish, int levels) {
   VertexAttributes parts;
-  for (const Point& d : directions(shape)) {
+  for (const Point& d : directions(shape, wish)) {
     const Tensor t = square(d);
     for (std::size_t k = 0; k < 6; ++k) parts[std::to_string(k)].push_back(t[k]);
   }

@@ -2,6 +2,9 @@
 // Diffusion tensors on a surface from a direction field and rates along and across it (Witkin, Kass 1991, section 4; on
 // a surface in the conservative form div(T grad u)).
 
+#include <optional>
+
+#include "direction/guides.h"
 #include "discretise/assembly.h"
 #include "discretise/quadrature.h"
 #include "react/kinetics.h"
@@ -11,9 +14,10 @@ namespace pelage {
 /// Name of the vertex attribute (3 components) that gives a mesh its directions.
 inline constexpr const char* direction_attribute = "direction";
 
-/// Lines d d' at the vertices of `shape` after `levels` refinements, linear over its triangles: of its attribute
-/// "direction", or else of its smoothest field of lines. Error(Fault::input) for an attribute of another size.
-std::vector<Tensor> vertex_lines(const TriangleMesh& shape, int levels);
+/// Lines d d' at the vertices of `shape` after `levels` refinements, linear over its triangles: those of the wish, or
+/// else of its attribute "direction", or else of its smoothest field of lines. Error(Fault::input) for an attribute of
+/// another size.
+std::vector<Tensor> vertex_lines(const TriangleMesh& shape, const std::optional<FieldWish>& wish, int levels);
 
 /// T = a1^2 d d' + a2^2 n n' at the quadrature points, with d at the angle theta from the field, counter-clockwise seen
 /// from outside. `lines`: at the vertices of the discretisation; `rates`: at its quadrature points.

@@ -109,8 +109,6 @@ VertexAttributes Operators::vertex_attributes(const Program& program) const {
 /// that the field is exactly what it was wherever all that make it up are.
 void Operators::hold_samples(const Program& program) {
   if (!model_.held()) return;
-  if (program.stepper == "paper")
-    throw Error(Fault::usage, "the stepper \"paper\" cannot freeze parts of the surface; take \"sbdf2\"");
   held_ = inside_ = kinetics_->held();
   if (program.excluded) held_ = eroded(discretisation_->topology, std::move(held_), rings_of_a_basis_function);
   system_.held = &held_;
@@ -203,7 +201,7 @@ void Operators::build_species() {
 
 /// The direction field of anisotropic species; it stays with the vertices when the surface moves.
 void Operators::find_directions(const Program& program) {
-  lines_ = vertex_lines(program.shape, levels_);
+  lines_ = vertex_lines(program.shape, program.directions, levels_);
   const double safe = safe_ratio(program.method);
   for (std::size_t i = 0; i < model_.species_count(); ++i) {
     if (!model_.anisotropic(i)) continue;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "direction/guides.h"
 #include "fair/fair.h"
 #include "pelage/recipe.h"
 #include "pelage/triangle_mesh.h"
@@ -33,13 +34,14 @@ struct Program {
   double length_unit = 0;      ///< world length of one model length unit: size / the model's wavelength
   std::optional<double> step;  ///< fixed step; else the stepper's choice
   double suggested_step = 0;
-  double resolution = 6;         ///< control vertices per wavelength, at least
-  bool excluded = false;         ///< what the model holds is cut out: no flux passes its border
-  std::optional<double> points;  ///< spacing of the random points that attribute(points) tells the distance to
-  std::optional<double> edge;    ///< longest edge [world units] where another stage asks for shorter ones than this
-  std::optional<int> levels;     ///< refine the shape so often, whatever the sizes
-  VertexAttributes fields;       ///< finished fields of earlier stages, "STAGE.SPECIES", at the refined vertices
-  double until = 0;              ///< model time
+  double resolution = 6;                ///< control vertices per wavelength, at least
+  bool excluded = false;                ///< what the model holds is cut out: no flux passes its border
+  std::optional<FieldWish> directions;  ///< of anisotropic diffusion; default: attribute "direction", or the smoothest
+  std::optional<double> points;         ///< spacing of the random points that attribute(points) tells the distance to
+  std::optional<double> edge;  ///< longest edge [world units] where another stage asks for shorter ones than this
+  std::optional<int> levels;   ///< refine the shape so often, whatever the sizes
+  VertexAttributes fields;     ///< finished fields of earlier stages, "STAGE.SPECIES", at the refined vertices
+  double until = 0;            ///< model time
   std::optional<std::int64_t> steps;
   double stationary = 0;  ///< 0: never
   std::uint64_t seed = 1;

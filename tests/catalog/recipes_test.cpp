@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "catalog/resolve.h"
@@ -113,6 +114,37 @@ TEST(Cascades, SmallSpotsOfTheLeopardRingTheLargeOnes) {
   };
   EXPECT_GT(share_near(leopard.dark), 1.3 * share_near(leopard.outside))
       << share_near(leopard.dark) << ' ' << share_near(leopard.outside);
+}
+
+/// Heights of the spots on the unit sphere, of the same size everywhere or of 2 + z times that.
+std::vector<double> heights_of_spots(double size, bool mapped) {
+  Recipe recipe = parse_recipe(std::string("[stage]\nmodel = \"turing\"\n") + (mapped ? "size-map = \"2 + z\"\n" : ""),
+                               "test.toml");
+  recipe.stages[0].size = {{size, false}, {}};
+  pelage::Run run(resolve(recipe, builtin_shape("builtin:sphere?n=10242")));
+  while (!run.done()) run.advance(1000);
+  const Vector b = run.operators().discretisation().values * run.coefficients()[1];
+  const auto& position = run.operators().system().sampling->position;
+  std::vector<char> in_spot;
+  for (const double value : b) in_spot.push_back(value < 3);
+  std::vector<double> heights;
+  for (const Spot& s : spots(run.operators().discretisation().topology, position, in_spot, in_spot))
+    heights.push_back(s.centre[2] / length(s.centre));
+  return heights;
+}
+
+TEST(SizeMap, LocalSpacingFollowsTheMapFromOneToThree) {
+  const double uniform_size = 0.4, size = 0.2;
+  // Spots per area are constant / size^2.
+  const double constant = static_cast<double>(heights_of_spots(uniform_size, false).size()) * uniform_size *
+                          uniform_size / (4 * std::numbers::pi);
+  const std::vector<double> heights = heights_of_spots(size, true);
+  for (const auto& [low, high] : {std::pair{-1.0, -0.5}, std::pair{-0.5, 0.1}, std::pair{0.1, 1.0}}) {
+    const auto found = std::ranges::count_if(heights, [a = low, b = high](double z) { return z >= a && z < b; });
+    const double wanted =
+        constant / (size * size) * 2 * std::numbers::pi * (1 / (2 + low) - 1 / (2 + high));  // of 1 / (2 + z)^2
+    EXPECT_NEAR(std::sqrt(wanted / static_cast<double>(found)), 1, 0.15) << low << ": " << found << " of " << wanted;
+  }
 }
 
 }  // namespace

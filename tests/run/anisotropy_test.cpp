@@ -36,7 +36,7 @@ void set_directions(TriangleMesh& mesh, const std::function<Point(const Point&)>
 
 SparseMatrix stiffness(const TriangleMesh& mesh, const Discretisation& d, double theta, double a1, double a2) {
   return Assembler(d).stiffness(
-      mesh.points, quadrature_tensors(d, mesh.points, vertex_lines(mesh, 0), constant_rates(d, theta, a1, a2)));
+      mesh.points, quadrature_tensors(d, mesh.points, vertex_lines(mesh, {}, 0), constant_rates(d, theta, a1, a2)));
 }
 
 class EveryMethod : public ::testing::TestWithParam<std::string> {};

@@ -198,6 +198,10 @@ TEST(Stages, FaultsAreLocated) {
   EXPECT_NE(message_of(first + second + "name = \"one\"\n").find("two stages are called"), std::string::npos);
   EXPECT_NE(message_of(first + second + "inside = \"frosen\"\n").find("did you mean \"frozen\""), std::string::npos);
   EXPECT_NE(message_of(first + second + "method = \"linear\"\n").find("all stages have the method"), std::string::npos);
+  EXPECT_NE(message_of(first + "mask = \"x > 0\"\nstepper = \"paper\"\n").find("cannot hold parts"), std::string::npos);
+  EXPECT_NE(message_of(first + "directions = { axis = [0, 1, 0] }\n").find("diffuses the same in all directions"),
+            std::string::npos);
+  EXPECT_NE(message_of(first + "directions = { axis = [0, 1] }\n").find("an axis is [X, Y, Z]"), std::string::npos);
   EXPECT_NE(message_of(first + "size-map = \"z\"\n").find("must be greater than 0"), std::string::npos);
   EXPECT_NE(message_of(first + "parameters = { ss = \"x\" }\n").find("unknown parameter \"ss\""), std::string::npos);
   EXPECT_NE(message_of(first + "[[look.layers]]\ncolor = \"#12\"\n").find("test.toml:5"), std::string::npos);

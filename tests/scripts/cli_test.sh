@@ -166,7 +166,7 @@ json '[f["path"] for f in d["files"]] == ["a.ply", "a.glb", "a.png"] and all(f["
 succeed grow $sphere "${quick[@]}" -o a.ply --quiet
 [ ! -s stdout ] && [ ! -s stderr ] || fail "--quiet is not quiet"
 succeed grow $sphere "${quick[@]}" -o a.ply
-grep -q '^wrote *a.ply' stdout && grep -q '^growth *3 steps' stdout || fail "grow does not say what it did"
+grep -q '^wrote *a.ply' stdout && grep -q '^grown *3 steps' stdout || fail "grow does not say what it did"
 grep -q $'\r' stderr && fail "a progress bar went into a pipe"
 succeed models turing
 grep -q 'db/dt = div(Db grad b)' stdout && grep -q unevenness stdout || fail "models turing shows no equations"
@@ -224,6 +224,18 @@ succeed grow --recipe own.toml --set Da=0.15 --steps 1 --detail 0 -o a.ply --jso
 json 'd["stages"][0]["growth"]["steps"] == 1 and d["stages"][0]["parameters"]["s"] == 0.06 and d["stages"][0]["parameters"]["Da"] == 0.15'
 succeed grow --recipe own.toml --set s=0.07,Da=0.16 --size 1.5u --detail 0 -o a.ply --json
 json 'd["stages"][0]["growth"]["steps"] == 2 and d["stages"][0]["parameters"]["s"] == 0.07 and d["stages"][0]["parameters"]["Da"] == 0.16 and d["stages"][0]["size"] == 1.5'
+printf '[[stage]]\nname = "large"\nmodel = "turing"\nsize = 0.4\nsteps = 2\n[[stage]]\nmodel = "turing"\nsize = 0.2\nsteps = 3\nmask = "large.b < 4"\n' >two.toml
+succeed grow $sphere --recipe two.toml --set large.s=0.06 --set stage2.size=1u --detail 0 -o a.ply --json
+json '[s["growth"]["steps"] for s in d["stages"]] == [2, 3] and d["stages"][0]["parameters"]["s"] == 0.06 and d["stages"][1]["size"] == 1'
+succeed grow $sphere --recipe two.toml --size 0.6 --detail 0 -o a.ply --json
+json 'abs(d["stages"][1]["size_of_diagonal"] - 0.3) < 1e-9'
+expect 2 '.*several stages; write STAGE.s=' grow $sphere --recipe two.toml --set s=0.06 -o a.ply
+expect 2 '.*unknown stage "larg".*did you mean "large"' grow $sphere --recipe two.toml --set larg.s=0.06 -o a.ply
+expect 2 '.*several stages; give either' grow $sphere --recipe two.toml --model turing -o a.ply
+succeed grow $sphere "${quick[@]}" --param-map "Da=0.125*(1 + x^2)" --param-map "size=1 + z^2" -o a.ply
+expect 2 '.*no vertex attribute "age"' grow $sphere "${quick[@]}" --param-map Da=attribute:age -o a.ply
+expect 2 '.*--param-map.*expected PARAM=FORMULA' grow $sphere --param-map Da -o a.ply
+expect 2 '.*param-map.*unknown parameter "Dx"' grow $sphere --param-map Dx=1 -o a.ply
 
 # --- a vertex with too many edges for Loop -------------------------------------------------------------------
 python3 - <<'PYTHON'

@@ -27,10 +27,9 @@ cases=("builtin:animal?n=3000 --size 0.08 --steps 40"
   "builtin:sphere?n=642 --size 0.3 --steps 10 --stepper paper"
   "builtin:knot?n=3000 --size 0.3 --steps 10 --stepper explicit --step 0.01 --keep-shape")
 debug=$source/build/debug/bin/pelage
-changed=$(cd "$source" && find src apps models recipes -newer "$debug" 2>/dev/null | head -n 1)
-if [ -x "$debug" ] && [ -n "$changed" ]; then
-  echo "the debug program is older than $changed: not compared"
-  debug=
+if [ -x "$debug" ]; then
+  changed=$(cd "$source" && find src apps models recipes -newer "$debug" | sed -n 1p)
+  [ -z "$changed" ] || { echo "the debug program is older than $changed: not compared"; debug=; }
 fi
 for i in "${!cases[@]}"; do
   read -ra arguments <<<"${cases[$i]}"
