@@ -88,15 +88,22 @@ void set_pins(ModelSource& model, const Stage& stage) {
   }
 }
 
+/// Changes what a species diffuses by: the diffusion or C1, which is 1 where only C0 is given, and the rates a1, a2.
+template <class Scalar, class Rate>
+void rewrite_diffusion(SpeciesSource& s, Scalar&& scalar, Rate&& rate) {
+  if (s.c0 && !s.c1) s.c1 = Formula{"1", s.c0->where};
+  rewrite(s.diffusion, scalar);
+  rewrite(s.c1, scalar);
+  if (!s.anisotropy) return;
+  for (Formula* f : {&s.anisotropy->a1, &s.anisotropy->a2}) f->text = rate("(" + f->text + ")");
+}
+
 /// Neither reaction nor diffusion inside of the mask.
 void exclude(ModelSource& model) {
   const auto outside = [](const std::string& text) { return std::string("if(") + mask_name + ", 0, " + text + ")"; };
   for (SpeciesSource& s : model.species) {
-    if (s.c0 && !s.c1) s.c1 = Formula{"1", s.c0->where};
-    for (auto* f : {&s.diffusion, &s.rate, &s.c1, &s.c2, &s.c3}) rewrite(*f, outside);
-    if (!s.anisotropy) continue;
-    s.anisotropy->a1.text = outside(s.anisotropy->a1.text);
-    s.anisotropy->a2.text = outside(s.anisotropy->a2.text);
+    rewrite_diffusion(s, outside, outside);
+    for (auto* f : {&s.rate, &s.c2, &s.c3}) rewrite(*f, outside);
   }
 }
 
@@ -104,13 +111,9 @@ void exclude(ModelSource& model) {
 void scale_sizes(ModelSource& model, const Stage& stage) {
   if (!stage.size_map) return;
   define(model, size_name, *stage.size_map);
-  for (SpeciesSource& s : model.species) {
-    if (s.c0 && !s.c1) s.c1 = Formula{"1", s.c0->where};
-    for (auto* f : {&s.diffusion, &s.c1})
-      rewrite(*f, [](const std::string& text) { return text + "*" + size_name + "^2"; });
-    if (!s.anisotropy) continue;
-    for (Formula* f : {&s.anisotropy->a1, &s.anisotropy->a2}) f->text = "(" + f->text + ")*" + size_name;
-  }
+  const auto length = [](const std::string& text) { return text + "*" + size_name; };
+  const auto area = [](const std::string& text) { return text + "*" + size_name + "^2"; };
+  for (SpeciesSource& s : model.species) rewrite_diffusion(s, area, length);
 }
 
 }  // namespace

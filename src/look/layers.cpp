@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/parallel.h"
-#include "base/suggest.h"
 #include "look/ramp.h"
 #include "react/place_formula.h"
 
@@ -19,25 +18,20 @@ std::vector<double> values_of(const Given<std::string>& formula, const std::vect
   return PlaceFormula({formula.value, formula.where}, std::move(fields)).at(places);
 }
 
-Color color_of(const Given<std::string>& text) {
+/// What a text means, or a fault with its place.
+template <class Meaning>
+auto located(const Given<std::string>& text, Meaning&& meaning) {
   try {
-    return parse_hex_color(text.value);
+    return meaning(text.value);
   } catch (const Error& error) {
     throw Error(error.fault(), error.what(), text.where);
   }
 }
 
-Ramp ramp_of(const Given<std::string>& name) {
-  const std::vector<std::string> known = ramp_names();
-  if (std::ranges::count(known, name.value) == 0)
-    throw Error(Fault::usage, unknown_name("ramp", name.value, known), name.where);
-  return named_ramp(name.value);
-}
-
 /// The colour of a layer at every sample, or one for all.
 std::vector<Color> layer_colors(const Layer& layer, const std::vector<std::string>& species, const Places& places) {
-  if (layer.color) return {color_of(*layer.color)};
-  const Ramp ramp = ramp_of(*layer.ramp);
+  if (layer.color) return {located(*layer.color, parse_hex_color)};
+  const Ramp ramp = located(*layer.ramp, named_ramp);
   std::vector<Color> colors;
   for (const double v : values_of(layer.value, species, places))
     colors.push_back(ramp(std::clamp((v - layer.low) / (layer.high - layer.low), 0.0, 1.0)));

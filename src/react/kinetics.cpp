@@ -178,21 +178,6 @@ void Kinetics::diffusion(SpeciesValues u, double t, std::size_t begin, std::size
   run(diffusion_, u, t, begin, end, join(c0, c1));
 }
 
-Kinetics::TensorField Kinetics::anisotropy(std::size_t i) const {
-  const auto spread = [&](const std::vector<double>& values) {
-    return values.size() == 1 ? std::vector<double>(size_, values.front()) : values;
-  };
-  const auto& [theta, a1, a2] = anisotropy_[i];
-  return {spread(theta), spread(a1), spread(a2)};
-}
-
-std::vector<char> Kinetics::held() const {
-  if (held_.empty()) return {};
-  std::vector<char> held(size_);
-  for (std::size_t k = 0; k < size_; ++k) held[k] = held_[held_.size() == size_ ? k : 0] != 0;
-  return held;
-}
-
 namespace {
 
 /// One value per sample, or one for all.
@@ -204,6 +189,26 @@ void spread(const std::vector<double>& values, std::span<double> out) {
 }
 
 }  // namespace
+
+Kinetics::TensorField Kinetics::anisotropy(std::size_t i) const {
+  TensorField field;
+  const auto& [theta, a1, a2] = anisotropy_[i];
+  const auto fill = [&](const std::vector<double>& values, std::vector<double>& out) {
+    out.resize(size_);
+    spread(values, out);
+  };
+  fill(theta, field.theta);
+  fill(a1, field.a1);
+  fill(a2, field.a2);
+  return field;
+}
+
+std::vector<char> Kinetics::held() const {
+  if (held_.empty()) return {};
+  std::vector<char> held(size_);
+  for (std::size_t k = 0; k < size_; ++k) held[k] = held_[held_.size() == size_ ? k : 0] != 0;
+  return held;
+}
 
 void Kinetics::initial(std::size_t i, std::span<double> out) const {
   assert(out.size() == size_);

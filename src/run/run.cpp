@@ -74,10 +74,10 @@ void Run::next_stage() {
 }
 
 /// The stage `number` on the mesh of the present one, with the fields of all finished stages.
-void Run::enter_stage(std::size_t number, const std::vector<Point>& points) {
+void Run::enter_stage(std::size_t number, std::vector<Point> points) {
   Program& next = stages_[number];
   if (number != stage_) next.shape = std::move(stages_[stage_].shape);
-  next.shape.points = points;
+  next.shape.points = std::move(points);
   next.levels = operators_->levels();
   next.fields.clear();
   const SparseMatrix& at_vertices = operators_->discretisation().values;

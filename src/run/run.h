@@ -84,7 +84,7 @@ class Run {
   bool stage_done() const { return summary_.status != RunStatus::running; }
   void begin_stage(const Progress& progress);
   void next_stage();
-  void enter_stage(std::size_t number, const std::vector<Point>& points);
+  void enter_stage(std::size_t number, std::vector<Point> points);
   Snapshot read_snapshot(const std::string& bytes) const;
   bool fits(const Snapshot& snapshot) const;
   double next_step() const;
