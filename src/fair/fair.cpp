@@ -6,6 +6,7 @@
 #include "base/number.h"
 #include "base/suggest.h"
 #include "fair/boundary.h"
+#include "fair/detail.h"
 #include "fair/faces.h"
 #include "fair/flow.h"
 #include "fair/noise.h"
@@ -143,6 +144,8 @@ void Fairing::measure_way() { report_.moved = moved_along_normals(parts_->state,
 
 std::vector<Point> Fairing::points() const {
   std::vector<Point> points = parts_->state.points;
+  if (done() && !options_.steps && options_.method == "guided")
+    give_back_detail(parts_->topology, parts_->state.fixed, parts_->from, points);
   if (report_.steps > 0) parts_->closed.restore_volumes(parts_->from, points);
   return points;
 }
