@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "catalog/resolve.h"
+#include "discretise/quadrature.h"
+#include "run/anisotropy.h"
 #include "run/run.h"
 #include "shape/generators.h"
 #include "shape/vectors.h"
@@ -114,6 +116,40 @@ TEST(Cascades, SmallSpotsOfTheLeopardRingTheLargeOnes) {
   };
   EXPECT_GT(share_near(leopard.dark), 1.3 * share_near(leopard.outside))
       << share_near(leopard.dark) << ' ' << share_near(leopard.outside);
+}
+
+/// Mean angle in degrees between the stripes of a finished run and the field they follow, weighted with the squared
+/// gradient.
+double angle_to_field(const pelage::Run& run, const TriangleMesh& shape) {
+  const Operators& o = run.operators();
+  const std::vector<double> zero(static_cast<std::size_t>(o.discretisation().first_point.back()), 0);
+  const std::vector<double> one(zero.size(), 1);
+  const auto lines = vertex_lines(shape, run.program().directions, o.levels());
+  const std::vector<Tensor> line = quadrature_tensors(o.discretisation(), o.control(), lines, {zero, one, zero});
+  const Vector difference = run.coefficients()[1] - run.coefficients()[0];
+  double angle = 0, weight = 0;
+  const std::vector<Point> gradients = quadrature_gradients(o.discretisation(), o.control(), difference);
+  for (std::size_t q = 0; q < gradients.size(); ++q) {
+    const auto& [x, y, z] = gradients[q];
+    const auto& [xx, xy, xz, yy, yz, zz] = line[q];
+    const double square = dot(gradients[q], gradients[q]);
+    if (!(square > 0)) continue;
+    const double along = xx * x * x + yy * y * y + zz * z * z + 2 * (xy * x * y + xz * x * z + yz * y * z);
+    angle += square * std::asin(std::sqrt(std::clamp(along / square, 0.0, 1.0)));
+    weight += square;
+  }
+  return angle / weight * 180 / std::numbers::pi;
+}
+
+TEST(Zebra, StripesFollowTheFieldOnTheAnimal) {
+  Recipe recipe = load_recipe("zebra");
+  recipe.stages[0].size->value.value = 0.1;
+  const TriangleMesh shape = builtin_shape("builtin:animal?n=3000");
+  pelage::Run run(resolve(recipe, shape));
+  while (!run.done()) run.advance(1000);
+  const double angle = angle_to_field(run, shape);
+  RecordProperty("angle", std::to_string(angle));
+  EXPECT_LE(angle, 10);
 }
 
 /// Heights of the spots on the unit sphere, of the same size everywhere or of 2 + z times that.
