@@ -9,7 +9,7 @@ constexpr const char* head = R"(<!DOCTYPE html>
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<title>Pelage: gallery of the models</title>
+<title>Pelage: a gallery</title>
 <style>
 body { margin: 2rem auto; max-width: 76rem; padding: 0 1rem; font: 1rem/1.5 system-ui, sans-serif; color: #222; }
 nav { columns: 16rem; margin-bottom: 2rem; }
@@ -27,7 +27,6 @@ img { width: 100%; height: auto; display: block; border: 1px solid #ddd; }
 </style>
 </head>
 <body>
-<h1>Models</h1>
 )";
 
 std::string escaped(const std::string& text) {
@@ -76,8 +75,8 @@ std::string section(const GalleryEntry& entry, int size) {
 
 }  // namespace
 
-std::string gallery_page(const std::vector<GalleryEntry>& entries, int picture_size) {
-  std::string text = std::string(head) + "<nav>\n";
+std::string gallery_page(const std::string& title, const std::vector<GalleryEntry>& entries, int picture_size) {
+  std::string text = std::string(head) + "<h1>" + escaped(title) + "</h1>\n<nav>\n";
   for (const GalleryEntry& entry : entries)
     text += "<a href=\"#" + anchor(entry.name) + "\">" + escaped(entry.name) + "</a>\n";
   text += "</nav>\n";

@@ -12,14 +12,14 @@ struct GalleryPicture {
   std::string failure;  ///< instead of the picture, if not empty
 };
 
-/// A model or a variant.
+/// A model, a variant or a recipe.
 struct GalleryEntry {
-  std::string name;  ///< what the option --model takes
+  std::string name;  ///< what the option --model or --recipe takes
   std::string title, summary, cite;
   std::vector<GalleryPicture> pictures;
 };
 
-/// The text of index.html.
-std::string gallery_page(const std::vector<GalleryEntry>& entries, int picture_size);
+/// The text of index.html; `title`: "Models" or "Recipes".
+std::string gallery_page(const std::string& title, const std::vector<GalleryEntry>& entries, int picture_size);
 
 }  // namespace pelage

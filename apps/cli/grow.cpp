@@ -47,13 +47,6 @@ auto interruptible(const std::string& when, Work&& work) {
   }
 }
 
-/// Names are looked up before the shape is read, which may take long: a stand-in of extent 1 will do.
-void check_names(const Recipe& recipe) {
-  TriangleMesh stand_in;
-  stand_in.points = {{0, 0, 0}, {1, 0, 0}};
-  resolve(recipe, std::move(stand_in));
-}
-
 /// Loop elements are made for moderate valences; who did not ask for them gets what works.
 void choose_method(Recipe& recipe, bool asked, const TriangleMesh& mesh, GrowReport& report) {
   if (asked || recipe.stages[0].method.value != "loop") return;

@@ -37,11 +37,16 @@ void add_pattern_options(CLI::App& app, GrowOptions& o) {
   app.add_option("--recipe", o.recipe, "A built-in recipe or a .toml file; the other options override its values")
       ->type_name("NAME|FILE")
       ->group(group);
-  add_settings_option(app, o.settings)->group(group);
+  add_settings_option(app, o.settings)
+      ->description(
+          "Parameter of the model, or with STAGE. before it of a stage of a recipe; STAGE.size=LENGTH its size")
+      ->type_name("[STAGE.]PARAM=VALUE")
+      ->group(group);
   app.add_option("--param-map", o.maps,
-                 "Parameter, or size, that differs from place to place: a formula of x, y, z, nx, k1, attribute(NAME), "
+                 "Parameter, or size, that differs from place to place: a formula of x, y, z, bx, nx, k1, "
+                 "attribute(NAME), "
                  "..., or attribute:NAME for a vertex attribute of the shape; a size is a factor on --size")
-      ->type_name("PARAM=FORMULA")
+      ->type_name("[STAGE.]PARAM=FORMULA")
       ->allow_extra_args(false)
       ->group(group);
   app.add_option("--size", o.size,

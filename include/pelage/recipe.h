@@ -28,11 +28,14 @@ struct Length {
 /// of the file for the metric ones ("u": the file's own unit, whatever it is). Error(Fault::usage) otherwise.
 Length parse_length(const std::string& text, const Location& where);
 
-/// What the directions of anisotropic diffusion follow.
+/// What the directions of anisotropic diffusion follow: at least one of these.
 struct Directions {
-  std::optional<Point> axis;  ///< the projection of this vector; or
-  bool curvature = false;     ///< the larger principal curvature
-  bool across = false;        ///< turned by a right angle
+  std::optional<Point> axis;                     ///< the projection of this vector
+  bool curvature = false;                        ///< the larger principal curvature
+  std::optional<Given<std::string>> from, to;    ///< formulas: the gradient of the harmonic function between the
+                                                 ///< vertices where the one and those where the other is not 0
+  std::vector<std::vector<Point>> strokes = {};  ///< polylines near the surface, world units
+  bool across = false;                           ///< the others, strokes excepted, turned by a right angle
   Location where;
 };
 

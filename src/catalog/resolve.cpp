@@ -119,13 +119,48 @@ void require_paper_can(const Model& model, const Location& where) {
     throw Error(Fault::usage, "the stepper \"paper\" cannot hold parts of the surface; take \"sbdf2\"", where);
 }
 
-FieldWish resolve_directions(const Directions& d, const Model& model, double diagonal) {
+/// A formula of the place at the vertices of the shape; nothing where it depends on what is not known yet, or the shape
+/// is a stand-in without vertices.
+std::optional<std::vector<double>> values_at_vertices(const Given<std::string>& text, const TriangleMesh& shape,
+                                                      std::uint64_t seed) {
+  if (shape.triangles.empty()) return {};
+  const PlaceFormula formula({text.value, text.where});
+  for (const Symbol& s : formula.symbols())
+    if (s.kind == Symbol::Kind::curvature || s.name.find('.') != std::string::npos) return {};
+  const std::vector<Point> normals = vertex_normals(shape.triangles, shape.points);
+  const VertexAttributes attributes = scalar_attributes(shape.attributes);
+  Places places{.positions = shape.points, .normals = normals};
+  for (const auto& [name, values] : attributes) places.attributes[name] = values;
+  return formula.at(places, seed);
+}
+
+/// The vertices where a formula is not 0.
+std::vector<Index> marked(const Given<std::string>& text, const TriangleMesh& shape, std::uint64_t seed) {
+  const auto values = values_at_vertices(text, shape, seed);
+  if (!values) {
+    if (shape.triangles.empty()) return {};
+    throw Error(Fault::usage, "what marks vertices cannot depend on curvatures or on earlier stages", text.where);
+  }
+  std::vector<Index> vertices;
+  for (std::size_t v = 0; v < values->size(); ++v)
+    if ((*values)[v] != 0) vertices.push_back(static_cast<Index>(v));
+  if (vertices.empty()) throw Error(Fault::usage, "this marks no vertex of the shape", text.where);
+  return vertices;
+}
+
+FieldWish resolve_directions(const Stage& stage, const Model& model, const TriangleMesh& shape, double diagonal) {
+  const Directions& d = *stage.directions;
   if (!model.anisotropic())
     throw Error(Fault::usage, "model \"" + model.name() + "\" diffuses the same in all directions", d.where);
   if (d.axis && length(*d.axis) == 0) throw Error(Fault::usage, "the axis has length 0", d.where);
   FieldWish wish;
   wish.axis = d.axis;
   wish.curvature = d.curvature;
+  wish.strokes = d.strokes;
+  if (d.from) {
+    wish.from = marked(*d.from, shape, stage.seed);
+    wish.to = marked(*d.to, shape, stage.seed);
+  }
   wish.across = d.across;
   wish.smooth = default_field_smoothing * diagonal;
   return wish;
@@ -133,19 +168,13 @@ FieldWish resolve_directions(const Directions& d, const Model& model, double dia
 
 /// The smallest factor of a size map over the vertices of the shape; 1 where the map depends on what is not known yet.
 double smallest_factor(const Stage& stage, const TriangleMesh& shape) {
-  if (!stage.size_map || shape.triangles.empty()) return 1;
-  const Formula map{stage.size_map->value, stage.size_map->where};
-  const std::vector<Point> normals = vertex_normals(shape.triangles, shape.points);
-  const VertexAttributes attributes = scalar_attributes(shape.attributes);
-  Places places{.positions = shape.points, .normals = normals};
-  for (const auto& [name, values] : attributes) places.attributes[name] = values;
-  const PlaceFormula formula(map);
-  for (const Symbol& s : formula.symbols())
-    if (s.kind == Symbol::Kind::curvature || s.name.find('.') != std::string::npos) return 1;
-  const double smallest = std::ranges::min(formula.at(places, stage.seed));
+  if (!stage.size_map) return 1;
+  const auto factors = values_at_vertices(*stage.size_map, shape, stage.seed);
+  if (!factors) return 1;
+  const double smallest = std::ranges::min(*factors);
   if (!(smallest > 0))
     throw Error(Fault::usage, "the map of the size is " + number(smallest) + " somewhere; it must be greater than 0",
-                map.where);
+                stage.size_map->where);
   return smallest;
 }
 
@@ -173,7 +202,7 @@ Program resolve_stage(const Recipe& recipe, std::size_t number, const TriangleMe
   if (!(diagonal > 0)) throw Error(Fault::input, "the shape has no extent: all its vertices are at one place");
   p.size = world_length(stage.size, diagonal);
   p.length_unit = p.size / model_wavelength(plain);
-  if (stage.directions) p.directions = resolve_directions(*stage.directions, p.model, diagonal);
+  if (stage.directions) p.directions = resolve_directions(stage, p.model, shape, diagonal);
   p.excluded = stage.inside.value == "excluded";
   if (stage.points) p.points = world_length(stage.points, diagonal);
   const Suggestions& suggested = p.model.source().suggestions;
@@ -222,6 +251,12 @@ std::vector<Program> resolve(const Recipe& recipe, TriangleMesh shape) {
   stages[0].edge = edge / std::exp(std::max(0.0, motion.growth * until));
   stages[0].shape = std::move(shape);
   return stages;
+}
+
+void check_names(const Recipe& recipe) {
+  TriangleMesh stand_in;  // of extent 1
+  stand_in.points = {{0, 0, 0}, {1, 0, 0}};
+  resolve(recipe, std::move(stand_in));
 }
 
 std::vector<std::string> recipe_names() {

@@ -13,6 +13,9 @@ inline constexpr double default_size = 0.04;
 /// Error(Fault::input) for a shape without extent.
 std::vector<Program> resolve(const Recipe& recipe, TriangleMesh shape);
 
+/// The same without a shape, which may take long to read: finds all but what depends on the shape's attributes.
+void check_names(const Recipe& recipe);
+
 /// The built-in recipe of that name, or the one in the file when the name ends in .toml.
 Recipe load_recipe(const std::string& name_or_path);
 std::vector<std::string> recipe_names();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 
 #include "discretise/curvature.h"
@@ -67,9 +68,9 @@ void require_marks(const Connection& c, const std::vector<Index>& low, const std
       if (v < 0 || v >= c.topology.vertex_count)
         throw Error(Fault::usage, "vertex " + std::to_string(v) + " is marked; the mesh has " +
                                       std::to_string(c.topology.vertex_count) + ", counted from 0");
+  const std::set<Index> of_high(high.begin(), high.end());
   for (const Index v : low)
-    if (std::ranges::count(high, v) > 0)
-      throw Error(Fault::usage, "vertex " + std::to_string(v) + " is marked for both ends");
+    if (of_high.contains(v)) throw Error(Fault::usage, "vertex " + std::to_string(v) + " is marked for both ends");
 }
 
 /// The cotangent Laplacian with the marked rows replaced, symmetrically, by those of a unit matrix.

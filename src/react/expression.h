@@ -26,6 +26,7 @@ struct Symbol {
     laplacian,      ///< surface Laplacian of concentration number `index`
     time,           ///< model time
     position,       ///< coordinate `index` (0, 1, 2) of the place, world units
+    box_position,   ///< the same in the bounding box of all places: -1 at its low side, 1 at its high one
     normal_vector,  ///< component `index` of the unit normal
     curvature,      ///< principal curvature k1 (index 0) or k2 (index 1), 1 / world unit
     attribute,      ///< vertex attribute `name`

@@ -21,6 +21,9 @@ const Symbol* built_in_symbol(std::string_view name) {
       {"x", {Kind::position, 0}},
       {"y", {Kind::position, 1}},
       {"z", {Kind::position, 2}},
+      {"bx", {Kind::box_position, 0}},
+      {"by", {Kind::box_position, 1}},
+      {"bz", {Kind::box_position, 2}},
       {"nx", {Kind::normal_vector, 0}},
       {"ny", {Kind::normal_vector, 1}},
       {"nz", {Kind::normal_vector, 2}},
@@ -343,7 +346,8 @@ NodeId parse_formula(Graph& graph, const Formula& formula, const Scope& scope, s
 
 const std::vector<std::string>& reserved_names() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> list = {"pi", "e", "t", "x", "y", "z", "nx", "ny", "nz", "k1", "k2", "H"};
+    std::vector<std::string> list = {"pi", "e",  "t",  "x",  "y",  "z",  "bx", "by",
+                                     "bz", "nx", "ny", "nz", "k1", "k2", "H"};
     for (const Function& function : pure_functions()) list.emplace_back(function.name);
     for (const char* name : {"attribute", "lap", "uniform", "normal", "noise", "and", "or", "not"})
       list.emplace_back(name);

@@ -6,6 +6,7 @@
 //   if(condition, a, b) min max abs exp log sqrt sin cos tan tanh pow(a, b) mod(a, b) floor
 //   step(edge, x) = (x >= edge), smoothstep(edge0, edge1, x), clamp(x, lower, upper)
 //   pi, e; t (time); x, y, z (place, world units); nx, ny, nz (unit normal);
+//   bx, by, bz (place in the bounding box of the surface, from -1 to 1; 0 along a side without extent);
 //   k1, k2, H (principal curvatures and their mean, 1 / world unit); attribute(name) (of the mesh, per vertex)
 //   lap(u): surface Laplacian of a species u; in rate and equals only, times numbers and parameters (react/laplacian.h)
 //   uniform(a, b), normal(mean, deviation): white noise, an independent draw at every place

@@ -1,7 +1,9 @@
 #include "react/place_values.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "base/parallel.h"
 #include "base/random.h"
@@ -63,6 +65,17 @@ std::vector<double> random_values(const Symbol& symbol, const Places& places, st
   });
 }
 
+std::vector<double> box_positions(std::span<const Point> positions, std::size_t component) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Point& p : positions) {
+    low = std::min(low, p[component]);
+    high = std::max(high, p[component]);
+  }
+  return tabulate(positions.size(), [&](std::size_t i) {
+    return high > low ? (2 * positions[i][component] - low - high) / (high - low) : 0;
+  });
+}
+
 }  // namespace
 
 std::vector<double> place_values(const Symbol& symbol, const Places& places, std::uint64_t seed) {
@@ -71,6 +84,8 @@ std::vector<double> place_values(const Symbol& symbol, const Places& places, std
   switch (symbol.kind) {
     case Symbol::Kind::position:
       return tabulate(size, [&](std::size_t i) { return places.positions[i][component]; });
+    case Symbol::Kind::box_position:
+      return box_positions(places.positions, component);
     case Symbol::Kind::normal_vector:
       require(places.normals.size() == size, "normals", symbol);
       return tabulate(size, [&](std::size_t i) { return places.normals[i][component]; });

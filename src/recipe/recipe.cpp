@@ -68,18 +68,29 @@ std::vector<Stage::SpeciesFormula> read_species(const Value& table, const std::s
   return list;
 }
 
+Point read_point(const Value& v, const std::string& what) {
+  if (v.items().size() != 3) throw Error(Fault::usage, what + " is [X, Y, Z]", v.where());
+  return {v.items()[0].number(), v.items()[1].number(), v.items()[2].number()};
+}
+
 Directions read_directions(const Value& table) {
   Directions d;
   d.where = table.where();
-  if (const Value* axis = table.find("axis")) {
-    if (axis->items().size() != 3) throw Error(Fault::usage, "an axis is [X, Y, Z]", axis->where());
-    d.axis.emplace();
-    for (std::size_t k = 0; k < 3; ++k) (*d.axis)[k] = axis->items()[k].number();
-  }
+  if (const Value* axis = table.find("axis")) d.axis = read_point(*axis, "an axis");
   if (const Value* v = table.find("curvature")) d.curvature = v->boolean();
+  d.from = optional_formula(table, "from");
+  d.to = optional_formula(table, "to");
+  if (const Value* strokes = table.find("strokes"))
+    for (const Value& stroke : strokes->items()) {
+      d.strokes.emplace_back();
+      for (const Value& point : stroke.items()) d.strokes.back().push_back(read_point(point, "a point of a stroke"));
+    }
   if (const Value* v = table.find("across")) d.across = v->boolean();
-  if (d.axis.has_value() == d.curvature)
-    throw Error(Fault::usage, "directions follow either an axis or the curvature", d.where);
+  if (d.from.has_value() != d.to.has_value())
+    throw Error(Fault::usage, "directions along a gradient need both \"from\" and \"to\"", d.where);
+  if (!d.axis && !d.curvature && !d.from && d.strokes.empty())
+    throw Error(Fault::usage, "directions follow an axis, the curvature, the way from a place to another, or strokes",
+                d.where);
   return d;
 }
 

@@ -46,6 +46,13 @@ TEST(Kinetics, ReadsThePlace) {
   EXPECT_EQ(rates(rate_of("cos(t*0) + u*(t + 1)"), places, 1, 2, 3), (std::vector<double>{10, 10}));
 }
 
+TEST(Kinetics, PlacesInTheBoundingBoxRunFromMinusOneToOne) {
+  const std::vector<Point> points = {{1, 2, 7}, {3, 2, 5}, {2.5, 2, 9}};
+  EXPECT_EQ(rates(rate_of("bx"), {.positions = points}, 1), (std::vector<double>{-1, 1, 0.5}));
+  EXPECT_EQ(rates(rate_of("by"), {.positions = points}, 1), (std::vector<double>{0, 0, 0}));
+  EXPECT_EQ(rates(rate_of("bz"), {.positions = points}, 1), (std::vector<double>{0, -1, 1}));
+}
+
 TEST(Kinetics, MissingQuantitiesAreLocatedFaults) {
   const std::vector<Point> points = {{1, 2, 3}};
   const std::vector<double> mask = {1};

@@ -5,6 +5,7 @@
 
 #include "catalog/resolve.h"
 #include "pelage/error.h"
+#include "run/anisotropy.h"
 #include "run/random_points.h"
 #include "run/run.h"
 #include "shape/generators.h"
@@ -202,11 +203,39 @@ TEST(Stages, FaultsAreLocated) {
   EXPECT_NE(message_of(first + "directions = { axis = [0, 1, 0] }\n").find("diffuses the same in all directions"),
             std::string::npos);
   EXPECT_NE(message_of(first + "directions = { axis = [0, 1] }\n").find("an axis is [X, Y, Z]"), std::string::npos);
+  const std::string striped = "[stage]\nmodel = \"witkin-kass-stripes\"\nsize = 0.3\n";
+  EXPECT_NE(message_of(striped + "directions = { across = true }\n").find("follow an axis"), std::string::npos);
+  EXPECT_NE(message_of(striped + "directions = { from = \"x < 0\" }\n").find("both \"from\" and \"to\""),
+            std::string::npos);
+  EXPECT_NE(message_of(striped + "directions = { from = \"x < 0\", to = \"bx > 2\" }\n").find("marks no vertex"),
+            std::string::npos);
+  EXPECT_NE(message_of(striped + "directions = { strokes = [[[0, 0], [1, 1]]] }\n").find("a point of a stroke is"),
+            std::string::npos);
   EXPECT_NE(message_of(first + "size-map = \"z\"\n").find("must be greater than 0"), std::string::npos);
   EXPECT_NE(message_of(first + "parameters = { ss = \"x\" }\n").find("unknown parameter \"ss\""), std::string::npos);
   EXPECT_NE(message_of(first + "[[look.layers]]\ncolor = \"#12\"\n").find("test.toml:5"), std::string::npos);
   EXPECT_NE(message_of(first + "[[look.layers]]\ncolor = \"#123456\"\nopacity = \"one.b + c\"\n").find("test.toml:6"),
             std::string::npos);
+}
+
+/// On a square the way from one side to the other, an axis and a stroke all ask for the same lines.
+TEST(Directions, OfAStageFollowAxisGradientAndStrokes) {
+  const TriangleMesh square = builtin_shape("builtin:plane?n=400");
+  const auto lines = [&](const std::string& directions) {
+    const Recipe recipe =
+        parse_recipe("[stage]\nmodel = \"witkin-kass-stripes\"\nsize = 0.3\ndirections = " + directions, "test.toml");
+    return vertex_lines(square, resolve(recipe, square)[0].directions, 0);
+  };
+  const auto expect_along = [](const std::vector<Tensor>& found, double xx, double yy) {
+    for (const Tensor& t : found) {
+      EXPECT_NEAR(t[0], xx, 1e-9);
+      EXPECT_NEAR(t[3], yy, 1e-9);
+    }
+  };
+  expect_along(lines("{ axis = [1, 0, 0] }"), 1, 0);
+  expect_along(lines("{ from = \"bx < -0.99\", to = \"bx > 0.99\" }"), 1, 0);
+  expect_along(lines("{ from = \"bx < -0.99\", to = \"bx > 0.99\", across = true }"), 0, 1);
+  expect_along(lines("{ strokes = [[[0.5, 0.1, 0], [0.5, 0.9, 0]]] }"), 0, 1);
 }
 
 TEST(RandomPoints, KeepTheirDistanceAndLeaveNoGap) {

@@ -192,6 +192,13 @@ succeed "${map[@]}" -o one.png --threads 1
 grep -q '2: 1 with a pattern, 1 uniform, 0 failed' stdout || fail "map says: $(cat stdout)"
 cmp map.png one.png || fail "1 and 2 threads give different maps"
 
+succeed gallery --recipes --shape builtin:sphere?n=100 --picture-size 64 -o coats spots-large --json
+json 'd["pictures"] == [{"recipe": "spots-large", "shape": "sphere", "file": "spots-large-sphere.png", "failure": None}]'
+grep -q '<h1>Recipes</h1>' coats/index.html || fail "the page of recipes has no heading"
+expect 2 'did you mean "cheetah"' gallery --recipes -o coats cheeta
+expect 2 'recipes have sizes of their own' gallery --recipes --size 0.1 -o coats cheetah
+expect 3 'none.obj' gallery --shape none.obj -o coats turing
+
 # --- a gallery: pictures, an index whose links all lead somewhere, failures named -------------------------------
 gallery=(gallery --size 0.4 --picture-size 64)
 expect 2 '-o|--output is required' gallery turing

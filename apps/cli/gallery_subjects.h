@@ -1,0 +1,35 @@
+#pragma once
+// What a gallery shows, and on what.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pelage/recipe.h"
+#include "pelage/triangle_mesh.h"
+
+namespace pelage {
+
+/// A model, a variant or a recipe.
+struct GallerySubject {
+  std::string name;                  ///< what --model or --recipe takes
+  std::string title, summary, cite;  ///< the last two empty for a variant
+  Recipe recipe;
+};
+
+/// The models of these names, each with its variants, all of them when there is none; patterns of `size`. Faults of
+/// files are thrown before any work.
+std::vector<GallerySubject> model_subjects(const std::vector<std::string>& names, const Length& size);
+
+/// The recipes of these names, or all of them.
+std::vector<GallerySubject> recipe_subjects(const std::vector<std::string>& names);
+
+struct GalleryShape {
+  std::string name;
+  TriangleMesh mesh;
+};
+
+/// These shapes; those that suit models or recipes when there is none.
+std::vector<GalleryShape> gallery_shapes(const std::vector<std::string>& paths, bool of_recipes);
+
+}  // namespace pelage
