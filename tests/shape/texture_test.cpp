@@ -33,6 +33,8 @@ TEST(Texture, IsLinearBetweenTheCentresOfPixelsAndRepeats) {
   EXPECT_NEAR(at(0.25, 0.65), 0.8 * 0.8 + 0.2 * 0.2, step);
   EXPECT_NEAR(at(0, 0.75), 0.6, step);  // half of the first pixel, half of the last
   EXPECT_NEAR(at(0.25, 1), 0.5, step);
+  EXPECT_NEAR(at(0.95, 0.75), 0.4 * 0.6 + 0.8 * 0.4, step);  // beyond the last centre
+  EXPECT_NEAR(at(0.25, 0.05), 0.2 * 0.6 + 0.8 * 0.4, step);
   for (const auto& [u, v] : {std::pair{0.1, 0.3}, {0.9, 0.05}})
     for (const int k : {-3, 1, 7}) {
       EXPECT_NEAR(at(u + k, v), at(u, v), 1e-12);
