@@ -57,16 +57,15 @@ void choose_method(Recipe& recipe, bool asked, const TriangleMesh& mesh, GrowRep
                  std::to_string(max_loop_valence) + " that Loop elements take; using --method linear");
 }
 
-/// A given step may be beyond what the scheme stands.
-void warn_about_step(const Run& run, GrowReport& report) {
+/// A given step may be beyond what the scheme stands, and the anisotropy beyond what the mesh carries.
+void warn_about_stage(const Run& run, GrowReport& report) {
+  const std::string stage = run.stages().size() > 1 ? "stage " + run.program().name + ": " : "";
   const double step = run.summary().step, stable = run.stable_step();
   if (step > stable)
-    report.warning("the step " + brief(step) + " is beyond " + brief(stable) + ", the largest that is stable for " +
-                   run.program().stepper + "; what grows may be an artefact of the step");
-}
-
-void warn_about_anisotropy(const Run& run, GrowReport& report) {
-  for (const std::string& text : run.operators().warnings()) report.warning(text);
+    report.warning(stage + "the step " + brief(step) + " is beyond " + brief(stable) +
+                   ", the largest that is stable for " + run.program().stepper +
+                   "; what grows may be an artefact of the step");
+  for (const std::string& text : run.operators().warnings()) report.warning(stage + text);
 }
 
 void restore(Run& run, const std::string& path) {
@@ -93,12 +92,16 @@ std::int64_t next_steps(std::int64_t steps, double seconds) {
   return std::clamp(static_cast<std::int64_t>(wanted), std::int64_t{1}, 2 * steps);
 }
 
-void grow_to_the_end(Run& run, const GrowOptions& options, const Progress& progress) {
+void grow_to_the_end(Run& run, const GrowOptions& options, const Progress& progress, GrowReport& report) {
   std::int64_t steps = 1;
+  std::size_t stage = run.stage();
   while (!run.done() && progress("growing", run.fraction())) {
     const Stopwatch watch;
     run.advance(steps);
     steps = next_steps(steps, watch.seconds());
+    if (run.stage() == stage) continue;
+    stage = run.stage();
+    warn_about_stage(run, report);
   }
   if (run.summary().status == RunStatus::failed) throw Error(Fault::numerics, run.summary().message);
   if (!options.checkpoint.empty()) write_file(options.checkpoint, run.checkpoint());
@@ -157,12 +160,11 @@ void grow(const GrowOptions& options) {
 
   Run run = interruptible("before the growth began; nothing was written",
                           [&] { return Run(resolve(recipe, std::move(file.mesh)), progress); });
-  warn_about_step(run, report);
-  warn_about_anisotropy(run, report);
   restore(run, options.resume);
+  warn_about_stage(run, report);
   report.pattern(run);
   const Stopwatch growth;
-  grow_to_the_end(run, options, progress);
+  grow_to_the_end(run, options, progress, report);
   report.growth(run, growth.seconds());
   if (run.surface()) report.surface(*run.surface());
   if (!options.checkpoint.empty()) report.file(options.checkpoint);

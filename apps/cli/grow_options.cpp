@@ -49,6 +49,12 @@ void add_pattern_options(CLI::App& app, GrowOptions& o) {
       ->type_name("[STAGE.]PARAM=FORMULA")
       ->allow_extra_args(false)
       ->group(group);
+  app.add_option("--texture", o.textures,
+                 "PNG or JPEG image that formulas read through the shape's uv: its luminance as attribute(NAME), red, "
+                 "green and blue as attribute(NAME_1), _2 and _3")
+      ->type_name("NAME=FILE")
+      ->allow_extra_args(false)
+      ->group(group);
   app.add_option("--size", o.size,
                  "Spacing of the pattern: a fraction of the shape's diagonal (default: 0.04) or a length: 4mm, 2cm, "
                  "0.1m, 3in, or 1.5u in units of the file")
@@ -227,6 +233,16 @@ void apply_map(const std::string& text, std::vector<Stage>& stages) {
     override_parameter(stage.parameters, Stage::Setting{name, 0, Location{"--param-map"}, formula});
 }
 
+/// --texture NAME=FILE, instead of one of that name.
+void apply_texture(const std::string& text, std::vector<TextureFile>& textures) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+    throw Error(Fault::usage, "--texture " + text + ": expected NAME=FILE, for example age=age.png");
+  const std::string name = text.substr(0, equals);
+  std::erase_if(textures, [&](const TextureFile& t) { return t.name.value == name; });
+  textures.push_back({{name, {"--texture"}}, text.substr(equals + 1)});
+}
+
 /// The size of the first stage; those of the others keep their proportion to it.
 void apply_size(const Length& size, std::vector<Stage>& stages) {
   const Length before = stages[0].size ? stages[0].size->value : Length{default_size, true};
@@ -299,6 +315,7 @@ Recipe make_recipe(const GrowOptions& options) {
   if (!options.shape.empty()) recipe.shape = options.shape;
   if (recipe.shape.empty())
     throw Error(Fault::usage, "no shape to grow on; name a file or a built-in one, for example builtin:animal");
+  for (const std::string& text : options.textures) apply_texture(text, recipe.textures);
   apply(options, recipe.stages);
   apply(options, recipe.motion);
   apply(options, recipe.look);

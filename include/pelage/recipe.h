@@ -39,6 +39,13 @@ struct Directions {
   Location where;
 };
 
+/// An image whose values formulas read through the uv of the shape: attribute(NAME) is its luminance,
+/// attribute(NAME_1), _2 and _3 its red, green and blue, all from 0 to 1 as they are stored.
+struct TextureFile {
+  Given<std::string> name;
+  std::string path;  ///< PNG or JPEG; recipes give it relative to their own file
+};
+
 /// One run of a model to its stop. Formulas know the place (x, nx, k1, attribute(NAME), ...), the parameters of the
 /// model, the fields of earlier stages as STAGE.SPECIES, and `points` where it is set. docs/recipes.md.
 struct Stage {
@@ -109,7 +116,8 @@ struct Look {
 struct Recipe {
   std::string name;
   std::string summary;
-  std::string shape;             ///< used when the command names none
+  std::string shape;  ///< used when the command names none
+  std::vector<TextureFile> textures;
   std::vector<Stage> stages{1};  ///< at least one
   Motion motion;
   Look look;

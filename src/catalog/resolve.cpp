@@ -1,7 +1,6 @@
 #include "catalog/resolve.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -11,14 +10,16 @@
 #include "base/suggest.h"
 #include "catalog/embedded.h"
 #include "catalog/models.h"
+#include "catalog/names.h"
+#include "catalog/size_map.h"
+#include "catalog/stage_directions.h"
 #include "catalog/stage_model.h"
+#include "catalog/textures.h"
 #include "look/layers.h"
 #include "look/ramp.h"
-#include "react/place_formula.h"
 #include "react/place_values.h"
 #include "react/stability.h"
 #include "run/random_points.h"
-#include "shape/normals.h"
 #include "shape/vectors.h"
 #include "time/stepper.h"
 
@@ -43,9 +44,9 @@ Overrides numbers_of(const Stage& stage) {
 
 /// A trial on no samples finds attributes and fields that do not exist. (A stand-in without triangles has no
 /// attributes, and then only fields are looked for.)
-void require_places(const Model& model, const TriangleMesh& shape, const std::vector<std::string>& more) {
-  Places places;
-  for (const auto& [name, values] : scalar_attributes(shape.attributes)) places.attributes[name] = {};
+void require_places(const Model& model, const TriangleMesh& shape, const std::vector<Texture>& textures,
+                    const std::vector<std::string>& more) {
+  Places places = named_places(shape, textures);
   for (const std::string& name : more) places.attributes[name] = {};
   if (shape.triangles.empty())
     for (const Symbol& s : place_symbols(model))
@@ -92,10 +93,7 @@ std::vector<std::string> earlier_fields(const std::vector<Program>& stages) {
 void require_stage_names(const std::vector<Stage>& stages) {
   for (std::size_t k = 0; k < stages.size(); ++k) {
     const Given<std::string>& name = stages[k].name;
-    const auto is_part = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
-    if (!name.value.empty() &&
-        (std::isdigit(static_cast<unsigned char>(name.value[0])) || !std::ranges::all_of(name.value, is_part)))
-      throw Error(Fault::usage, "\"" + name.value + "\" is not a name; use letters, digits and _", name.where);
+    require_name(name);
     for (std::size_t other = 0; other < k; ++other)
       if (stages[other].name.value == name.value)
         throw Error(Fault::usage, "two stages are called \"" + name.value + "\"", name.where);
@@ -119,73 +117,15 @@ void require_paper_can(const Model& model, const Location& where) {
     throw Error(Fault::usage, "the stepper \"paper\" cannot hold parts of the surface; take \"sbdf2\"", where);
 }
 
-/// A formula of the place at the vertices of the shape; nothing where it depends on what is not known yet, or the shape
-/// is a stand-in without vertices.
-std::optional<std::vector<double>> values_at_vertices(const Given<std::string>& text, const TriangleMesh& shape,
-                                                      std::uint64_t seed) {
-  if (shape.triangles.empty()) return {};
-  const PlaceFormula formula({text.value, text.where});
-  for (const Symbol& s : formula.symbols())
-    if (s.kind == Symbol::Kind::curvature || s.name.find('.') != std::string::npos) return {};
-  const std::vector<Point> normals = vertex_normals(shape.triangles, shape.points);
-  const VertexAttributes attributes = scalar_attributes(shape.attributes);
-  Places places{.positions = shape.points, .normals = normals};
-  for (const auto& [name, values] : attributes) places.attributes[name] = values;
-  return formula.at(places, seed);
-}
-
-/// The vertices where a formula is not 0.
-std::vector<Index> marked(const Given<std::string>& text, const TriangleMesh& shape, std::uint64_t seed) {
-  const auto values = values_at_vertices(text, shape, seed);
-  if (!values) {
-    if (shape.triangles.empty()) return {};
-    throw Error(Fault::usage, "what marks vertices cannot depend on curvatures or on earlier stages", text.where);
-  }
-  std::vector<Index> vertices;
-  for (std::size_t v = 0; v < values->size(); ++v)
-    if ((*values)[v] != 0) vertices.push_back(static_cast<Index>(v));
-  if (vertices.empty()) throw Error(Fault::usage, "this marks no vertex of the shape", text.where);
-  return vertices;
-}
-
-FieldWish resolve_directions(const Stage& stage, const Model& model, const TriangleMesh& shape, double diagonal) {
-  const Directions& d = *stage.directions;
-  if (!model.anisotropic())
-    throw Error(Fault::usage, "model \"" + model.name() + "\" diffuses the same in all directions", d.where);
-  if (d.axis && length(*d.axis) == 0) throw Error(Fault::usage, "the axis has length 0", d.where);
-  FieldWish wish;
-  wish.axis = d.axis;
-  wish.curvature = d.curvature;
-  wish.strokes = d.strokes;
-  if (d.from) {
-    wish.from = marked(*d.from, shape, stage.seed);
-    wish.to = marked(*d.to, shape, stage.seed);
-  }
-  wish.across = d.across;
-  wish.smooth = default_field_smoothing * diagonal;
-  return wish;
-}
-
-/// The smallest factor of a size map over the vertices of the shape; 1 where the map depends on what is not known yet.
-double smallest_factor(const Stage& stage, const TriangleMesh& shape) {
-  if (!stage.size_map) return 1;
-  const auto factors = values_at_vertices(*stage.size_map, shape, stage.seed);
-  if (!factors) return 1;
-  const double smallest = std::ranges::min(*factors);
-  if (!(smallest > 0))
-    throw Error(Fault::usage, "the map of the size is " + number(smallest) + " somewhere; it must be greater than 0",
-                stage.size_map->where);
-  return smallest;
-}
-
 Program resolve_stage(const Recipe& recipe, std::size_t number, const TriangleMesh& shape,
-                      const std::vector<Program>& before) {
+                      const std::vector<Texture>& textures, const std::vector<Program>& before) {
   const Stage &stage = recipe.stages[number], &first = recipe.stages[0];
   require_known(stage.method, "method", methods);
   require_known(stage.stepper, "stepper", stepper_names());
   require_known(stage.inside, "way to treat the inside of a mask", {"frozen", "excluded"});
   require_same_method(first, stage);
   Program p;
+  p.textures = textures;
   p.name = stage.name.value;
   p.model_name = stage.model.value;
   std::vector<std::string> known = earlier_fields(before);
@@ -194,7 +134,7 @@ Program resolve_stage(const Recipe& recipe, std::size_t number, const TriangleMe
       compile(source, numbers_of(stage));  // faults of the model itself are found before those of the stage
   p.model = compile(stage_model(source, stage, known), numbers_of(stage));
   if (stage.points) known.push_back(points_attribute);
-  require_places(p.model, shape, known);
+  require_places(p.model, shape, textures, known);
   if (stage.stepper.value == "paper") require_paper_can(p.model, stage.stepper.where);
   p.method = first.method.value;
   p.stepper = stage.stepper.value;
@@ -202,7 +142,7 @@ Program resolve_stage(const Recipe& recipe, std::size_t number, const TriangleMe
   if (!(diagonal > 0)) throw Error(Fault::input, "the shape has no extent: all its vertices are at one place");
   p.size = world_length(stage.size, diagonal);
   p.length_unit = p.size / model_wavelength(plain);
-  if (stage.directions) p.directions = resolve_directions(stage, p.model, shape, diagonal);
+  if (stage.directions) p.directions = resolve_directions(stage, p.model, shape, textures, diagonal);
   p.excluded = stage.inside.value == "excluded";
   if (stage.points) p.points = world_length(stage.points, diagonal);
   const Suggestions& suggested = p.model.source().suggestions;
@@ -217,6 +157,15 @@ Program resolve_stage(const Recipe& recipe, std::size_t number, const TriangleMe
   return p;
 }
 
+/// Layers know the species of the last stage as attributes, too.
+void require_no_species(const std::vector<TextureFile>& textures, const Model& last) {
+  for (const TextureFile& t : textures)
+    for (std::size_t i = 0; i < last.species_count(); ++i)
+      if (last.species_name(i) == t.name.value)
+        throw Error(Fault::usage, "the texture \"" + t.name.value + "\" is called like a species; give it another name",
+                    t.name.where);
+}
+
 /// Species, ramp, layers.
 void require_look(const Look& look, const std::vector<Program>& stages, const TriangleMesh& shape) {
   require_known(look.ramp, "ramp", ramp_names());
@@ -224,8 +173,7 @@ void require_look(const Look& look, const std::vector<Program>& stages, const Tr
   const Model& last = stages.back().model;
   for (std::size_t i = 0; i < last.species_count(); ++i) species.push_back(last.species_name(i));
   const std::vector<std::string> fields = earlier_fields(stages);
-  Places places;
-  for (const auto& [name, values] : scalar_attributes(shape.attributes)) places.attributes[name] = {};
+  Places places = named_places(shape, stages[0].textures);
   for (const std::string& name : species) places.attributes[name] = {};
   for (const std::string& name : fields) places.attributes[name] = {};
   std::vector<double> no_colors;
@@ -238,13 +186,16 @@ void require_look(const Look& look, const std::vector<Program>& stages, const Tr
 
 std::vector<Program> resolve(const Recipe& recipe, TriangleMesh shape) {
   require_stage_names(recipe.stages);
+  const std::vector<Texture> textures = resolve_textures(recipe.textures, shape);
   std::vector<Program> stages;
   double edge = std::numeric_limits<double>::infinity(), until = 0;
   for (std::size_t k = 0; k < recipe.stages.size(); ++k) {
-    stages.push_back(resolve_stage(recipe, k, shape, stages));
-    edge = std::min(edge, stages[k].size / stages[k].resolution * smallest_factor(recipe.stages[k], shape));
-    until += stages[k].until;
+    const Program& p = stages.emplace_back(resolve_stage(recipe, k, shape, textures, stages));
+    const double own_edge = p.size / p.resolution;
+    edge = std::min(edge, own_edge * smallest_factor(recipe.stages[k], shape, textures, own_edge));
+    until += p.until;
   }
+  require_no_species(recipe.textures, stages.back().model);
   require_look(recipe.look, stages, shape);
   const SurfaceMotion motion = resolve_motion(recipe.motion, until);
   for (Program& p : stages) p.motion = motion;

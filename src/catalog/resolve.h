@@ -10,7 +10,8 @@ namespace pelage {
 inline constexpr double default_size = 0.04;
 
 /// The stages; the first one has the shape. Error(Fault::usage), located in the recipe, for anything unknown;
-/// Error(Fault::input) for a shape without extent.
+/// Error(Fault::input) for a shape without extent and for images that cannot be read. The images of a shape without
+/// triangles, which stands in for one that is not read yet, are looked at but not read.
 std::vector<Program> resolve(const Recipe& recipe, TriangleMesh shape);
 
 /// The same without a shape, which may take long to read: finds all but what depends on the shape's attributes.

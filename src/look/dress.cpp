@@ -25,23 +25,6 @@ constexpr double ramp_quantile = 0.005;
 /// What the colours of the shape are called in the coat.
 constexpr const char* input_color = "input_color";
 
-/// Corner values of the four children of every triangle: corners keep theirs, midpoints get the mean.
-std::vector<double> split_corners(const std::vector<double>& values, std::size_t components) {
-  std::vector<double> fine;
-  fine.reserve(4 * values.size());
-  std::vector<double> middle(3 * components);
-  for (std::size_t base = 0; base < values.size(); base += 3 * components) {
-    const double* corner = values.data() + base;
-    for (std::size_t k = 0; k < 3; ++k)
-      for (std::size_t c = 0; c < components; ++c)
-        middle[k * components + c] = (corner[k * components + c] + corner[(k + 1) % 3 * components + c]) / 2;
-    const double *a = corner, *b = a + components, *c = b + components;
-    const double *ab = middle.data(), *bc = ab + components, *ca = bc + components;
-    for (const double* v : {a, ab, ca, ab, b, bc, ca, bc, c, bc, ca, ab}) fine.insert(fine.end(), v, v + components);
-  }
-  return fine;
-}
-
 /// A mesh on its way through refinement: flat positions and attributes at midpoints, fields by the method's rule.
 struct Tessellation {
   Topology topology;
@@ -54,11 +37,7 @@ struct Tessellation {
 void refine(Tessellation& t, bool loop) {
   const Refinement middle = midpoint_refine(t.topology);
   t.flat = combine(middle.stencils, t.flat);
-  for (Attribute& a : t.attributes) {
-    const auto components = static_cast<std::size_t>(a.components);
-    a.values = a.domain == Domain::vertex ? combine(middle.stencils, a.values, components)
-                                          : split_corners(a.values, components);
-  }
+  for (Attribute& a : t.attributes) refine_attribute(a, middle);
   if (!t.control.empty()) {
     const Stencils stencils = loop ? loop_refine(t.topology).stencils : middle.stencils;
     t.control = combine(stencils, t.control);
@@ -159,17 +138,27 @@ std::string attribute_name(std::string field) {
   return field;
 }
 
-void paint_layers(const Look& look, const std::vector<std::string>& species, const Tessellation& t,
-                  const std::vector<Point>& positions, const std::vector<Point>& normals, std::vector<double>& color) {
-  if (look.layers.empty()) return;
-  Places places{.positions = positions, .normals = normals};
+/// What the layers may read from the shape and its textures.
+VertexAttributes layer_attributes(const std::vector<Texture>& textures, const Tessellation& t,
+                                  const TriangleMesh& mesh) {
   std::vector<Attribute> given = t.attributes;
   for (Attribute& a : given)
     if (a.name == input_color) a.name = "color";  // as formulas of stages know it
-  const VertexAttributes attributes = scalar_attributes(given);
+  VertexAttributes attributes = scalar_attributes(given);
+  for (const Attribute& uv : given)
+    for (const Texture& texture : textures)
+      if (uv.name == "uv") attributes.merge(texture_attributes(texture, mesh.triangles, mesh.points.size(), uv));
+  return attributes;
+}
+
+void paint_layers(const Look& look, const CoatFields& fields, const Tessellation& t, const TriangleMesh& mesh,
+                  const std::vector<Point>& normals, std::vector<double>& color) {
+  if (look.layers.empty()) return;
+  Places places{.positions = mesh.points, .normals = normals};
+  const VertexAttributes attributes = layer_attributes(fields.textures, t, mesh);
   for (const auto& [name, values] : attributes) places.attributes[name] = values;
-  for (std::size_t i = 0; i < species.size(); ++i) places.attributes[species[i]] = t.fields[i];
-  paint(look.layers, species, places, color);
+  for (std::size_t i = 0; i < fields.species.size(); ++i) places.attributes[fields.species[i]] = t.fields[i];
+  paint(look.layers, fields.species, places, color);
 }
 
 }  // namespace
@@ -198,7 +187,7 @@ TriangleMesh dress(CoatFields fields, const Look& look) {
   mesh.triangles = std::move(t.topology.triangles);
   mesh.set({"normal", 3, Domain::vertex, flattened(normals)});
   std::vector<double> color = colours(t.fields[shown], look);
-  paint_layers(look, fields.species, t, mesh.points, normals, color);
+  paint_layers(look, fields, t, mesh, normals, color);
   mesh.set({"color", 3, Domain::vertex, std::move(color)});
   for (std::size_t i = 0; i < t.fields.size(); ++i)
     mesh.set({attribute_name(fields.species[i]), 1, Domain::vertex, std::move(t.fields[i])});

@@ -6,15 +6,17 @@
 
 #include "pelage/recipe.h"
 #include "pelage/triangle_mesh.h"
+#include "shape/texture.h"
 
 namespace pelage {
 
 /// Fields as a run leaves them.
 struct CoatFields {
-  TriangleMesh shape;          ///< the mesh that the user gave, repaired
-  int levels = 0;              ///< how often it was refined for the run
-  bool loop = true;            ///< by Loop's rules, or at midpoints
-  std::vector<Point> control;  ///< control points of the refined mesh
+  TriangleMesh shape;             ///< the mesh that the user gave, repaired
+  std::vector<Texture> textures;  ///< that layers may read
+  int levels = 0;                 ///< how often it was refined for the run
+  bool loop = true;               ///< by Loop's rules, or at midpoints
+  std::vector<Point> control;     ///< control points of the refined mesh
   std::vector<std::string> species;
   std::vector<std::vector<double>> coefficients;  ///< per species, one for every control point
   double wavelength = 0;                          ///< of the pattern [world units]

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 
 #include "base/number.h"
 #include "recipe/document.h"
@@ -121,6 +122,19 @@ Stage read_stage(const Value& table, std::size_t count) {
   return s;
 }
 
+TextureFile read_texture_file(const Value& table) {
+  const std::filesystem::path folder = std::filesystem::path(table.where().file).parent_path();
+  return {given(table.at("name")), (folder / table.at("file").string()).string()};
+}
+
+/// [texture], or [[texture]] several times.
+std::vector<TextureFile> read_texture_files(const Value& given) {
+  if (given.kind() != Value::Kind::array) return {read_texture_file(given)};
+  std::vector<TextureFile> textures;
+  for (const Value& table : given.items()) textures.push_back(read_texture_file(table));
+  return textures;
+}
+
 /// [stage], or [[stage]] several times.
 std::vector<Stage> read_stages(const Value& given) {
   if (given.kind() != Value::Kind::array) return {read_stage(given, 1)};
@@ -206,6 +220,7 @@ Recipe parse_recipe(const std::string& text, const std::string& file) {
   recipe.name = document.string_or("name", file);
   recipe.summary = document.string_or("summary", "");
   recipe.shape = document.string_or("shape", "");
+  if (const Value* textures = document.find("texture")) recipe.textures = read_texture_files(*textures);
   recipe.stages = read_stages(document.at("stage"));
   if (const Value* motion = document.find("motion")) recipe.motion = read_motion(*motion);
   if (const Value* look = document.find("look")) recipe.look = read_look(*look);

@@ -95,6 +95,7 @@ RefinedMesh Operators::refined_mesh(const Program& program) const {
 
 VertexAttributes Operators::vertex_attributes(const Program& program) const {
   VertexAttributes attributes = refined(program.shape, attributes_read(model_, program.shape), levels_);
+  attributes.merge(refined_textures(model_, program.textures, program.shape, levels_));
   for (const Symbol& s : place_symbols(model_)) {
     if (s.kind != Symbol::Kind::attribute) continue;
     if (const auto field = program.fields.find(s.name); field != program.fields.end()) attributes.insert(*field);

@@ -4,7 +4,7 @@
 
 #include "discretise/sampling.h"
 #include "react/place_values.h"
-#include "shape/loop_subdivision.h"
+#include "shape/refine.h"
 
 namespace pelage {
 
@@ -36,6 +36,34 @@ VertexAttributes attributes_read(const Model& model, const TriangleMesh& mesh) {
     if (const auto found = all.find(s.name); s.kind == Symbol::Kind::attribute && found != all.end())
       read.insert(*found);
   return read;
+}
+
+std::vector<Texture> textures_read(const std::vector<Symbol>& symbols, const std::vector<Texture>& textures) {
+  std::vector<Texture> read;
+  for (const Texture& texture : textures) {
+    const auto names = attribute_names(texture.name);
+    if (std::ranges::any_of(symbols, [&](const Symbol& s) {
+          return s.kind == Symbol::Kind::attribute && std::ranges::count(names, s.name) > 0;
+        }))
+      read.push_back(texture);
+  }
+  return read;
+}
+
+VertexAttributes texture_values(const std::vector<Texture>& textures, const TriangleMesh& mesh) {
+  VertexAttributes values;
+  for (const Texture& texture : textures)
+    values.merge(texture_attributes(texture, mesh.triangles, mesh.points.size(), *mesh.find("uv")));
+  return values;
+}
+
+VertexAttributes refined_textures(const Model& model, const std::vector<Texture>& textures, const TriangleMesh& mesh,
+                                  int levels) {
+  const std::vector<Texture> read = textures_read(place_symbols(model), textures);
+  if (read.empty()) return {};
+  TriangleMesh fine{mesh.points, mesh.triangles, {*mesh.find("uv")}};
+  for (int level = 0; level < levels; ++level) fine = split_at_midpoints(fine);
+  return texture_values(read, fine);
 }
 
 VertexAttributes refined(const TriangleMesh& mesh, VertexAttributes attributes, int levels) {

@@ -9,11 +9,23 @@
 #include "pelage/triangle_mesh.h"
 #include "react/kinetics.h"
 #include "shape/scalar_attributes.h"
+#include "shape/texture.h"
 
 namespace pelage {
 
 /// Those that the model reads and the mesh has.
 VertexAttributes attributes_read(const Model& model, const TriangleMesh& mesh);
+
+/// Those textures of which one of the symbols speaks.
+std::vector<Texture> textures_read(const std::vector<Symbol>& symbols, const std::vector<Texture>& textures);
+
+/// What textures say at the vertices of the mesh, which has "uv" if there are any.
+VertexAttributes texture_values(const std::vector<Texture>& textures, const TriangleMesh& mesh);
+
+/// What those that the model reads say at the vertices after `levels` refinements of the mesh, uv being linear over its
+/// triangles.
+VertexAttributes refined_textures(const Model& model, const std::vector<Texture>& textures, const TriangleMesh& mesh,
+                                  int levels);
 
 /// The attributes after `levels` refinements of the mesh, linear over its triangles.
 VertexAttributes refined(const TriangleMesh& mesh, VertexAttributes attributes, int levels);

@@ -24,8 +24,9 @@ struct SurfaceMotion {
 
 /// One stage.
 struct Program {
-  TriangleMesh shape;  ///< repaired control mesh; of later stages empty: they go on with that of the first
-  std::string name;    ///< of the stage
+  TriangleMesh shape;             ///< repaired control mesh; of later stages empty: they go on with that of the first
+  std::vector<Texture> textures;  ///< laid on the shape by its "uv"
+  std::string name;               ///< of the stage
   Model model;
   std::string model_name;  ///< as the recipe gives it, with its variant
   std::string method;      ///< of discretisation

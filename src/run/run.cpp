@@ -219,6 +219,7 @@ CoatFields Run::fields() const {
   CoatFields f;
   f.shape = program().shape;
   if (surface_) f.shape.points = surface_->points();
+  f.textures = program().textures;
   f.levels = operators_->levels();
   f.loop = program().method == "loop";
   f.control = operators_->control();

@@ -25,6 +25,23 @@ TriangleSize measure(const Triangle& t, const std::vector<Point>& points) {
   return {std::sqrt(std::max({x, y, z})), std::sqrt(std::max(0.0, heron)) / 4};
 }
 
+/// Corner values of the four children of every triangle: corners keep theirs, midpoints get the mean.
+std::vector<double> split_corner_values(const std::vector<double>& values, std::size_t components) {
+  std::vector<double> fine;
+  fine.reserve(4 * values.size());
+  std::vector<double> middle(3 * components);
+  for (std::size_t base = 0; base < values.size(); base += 3 * components) {
+    const double* corner = values.data() + base;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t c = 0; c < components; ++c)
+        middle[k * components + c] = (corner[k * components + c] + corner[(k + 1) % 3 * components + c]) / 2;
+    const double *a = corner, *b = a + components, *c = b + components;
+    const double *ab = middle.data(), *bc = ab + components, *ca = bc + components;
+    for (const double* v : {a, ab, ca, ab, b, bc, ca, bc, c, bc, ca, ab}) fine.insert(fine.end(), v, v + components);
+  }
+  return fine;
+}
+
 }  // namespace
 
 double prevailing_edge(const std::vector<Triangle>& triangles, const std::vector<Point>& points) {
@@ -57,6 +74,19 @@ RefinedMesh refine_to_edge(RefinedMesh mesh, double edge, bool loop, std::size_t
     mesh = refine_once(mesh, loop);
   }
   return mesh;
+}
+
+void refine_attribute(Attribute& attribute, const Refinement& midpoints) {
+  const auto components = static_cast<std::size_t>(attribute.components);
+  attribute.values = attribute.domain == Domain::vertex ? combine(midpoints.stencils, attribute.values, components)
+                                                        : split_corner_values(attribute.values, components);
+}
+
+TriangleMesh split_at_midpoints(const TriangleMesh& mesh) {
+  const Refinement fine = midpoint_refine(make_topology(mesh.points.size(), mesh.triangles));
+  TriangleMesh result{combine(fine.stencils, mesh.points), fine.triangles, mesh.attributes};
+  for (Attribute& a : result.attributes) refine_attribute(a, fine);
+  return result;
 }
 
 }  // namespace pelage

@@ -22,4 +22,10 @@ RefinedMesh refine_to_edge(RefinedMesh mesh, double edge, bool loop, std::size_t
 /// One level.
 RefinedMesh refine_once(const RefinedMesh& mesh, bool loop);
 
+/// The values on the mesh that midpoint_refine() makes, linear over the triangles.
+void refine_attribute(Attribute& attribute, const Refinement& midpoints);
+
+/// Every triangle split into four at the midpoints of its edges, with all attributes.
+TriangleMesh split_at_midpoints(const TriangleMesh& mesh);
+
 }  // namespace pelage

@@ -244,6 +244,32 @@ expect 2 '.*no vertex attribute "age"' grow $sphere "${quick[@]}" --param-map Da
 expect 2 '.*--param-map.*expected PARAM=FORMULA' grow $sphere --param-map Da -o a.ply
 expect 2 '.*param-map.*unknown parameter "Dx"' grow $sphere --param-map Dx=1 -o a.ply
 
+# --- images as maps ------------------------------------------------------------------------------------------
+python3 - <<'PYTHON'
+import os, struct, zlib
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+os.makedirs("coats", exist_ok=True)
+rows = b"".join(b"\0" + bytes([0, 255] if y < 8 else [0, 0]) for y in range(16))  # 2 x 16, grey
+with open("coats/age.png", "wb") as f:
+    f.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 2, 16, 8, 0, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+with open("square.obj", "w") as f:
+    f.write("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0.1 0.1\nvt 0.9 0.1\nvt 0.9 0.9\nvt 0.1 0.9\nf 1/1 2/2 3/3 4/4\n")
+PYTHON
+textured=(grow square.obj --model turing --size 0.3 --steps 3 --detail 0 -o a.ply)
+succeed "${textured[@]}" --texture age=coats/age.png --param-map "size=1 + 2*attribute(age)" --param-map Da=0.1+0.1*attribute\(age_1\)
+printf '[[texture]]\nname = "age"\nfile = "age.png"\n[stage]\nmodel = "turing"\nsize = 0.3\nsteps = 3\nsize-map = "1 + attribute(age)"\n' >coats/old.toml
+succeed grow square.obj --recipe coats/old.toml -o a.ply
+succeed grow square.obj --recipe coats/old.toml --texture age=coats/age.png --texture young=coats/age.png -o a.ply
+expect 3 'missing.png: cannot be opened' grow square.obj --recipe coats/old.toml --texture age=missing.png -o a.ply
+expect 3 'missing.png: cannot be opened' grow no-shape.obj --texture age=missing.png -o a.ply
+expect 3 'square.obj: is no PNG or JPEG image' "${textured[@]}" --texture age=square.obj
+expect 2 '--texture age.png: expected NAME=FILE' "${textured[@]}" --texture age.png
+expect 2 '--texture: .*the shape has no uv' grow $sphere "${quick[@]}" --texture age=coats/age.png -o a.ply
+expect 2 'coats/old.toml:2:.*the shape has no uv' grow $sphere --recipe coats/old.toml -o a.ply
+expect 2 '.*no vertex attribute "agee"; did you mean "age"' "${textured[@]}" --texture age=coats/age.png --param-map 'size=1+attribute(agee)'
+
 # --- a vertex with too many edges for Loop -------------------------------------------------------------------
 python3 - <<'PYTHON'
 import math

@@ -1,0 +1,81 @@
+#include "io/texture_reader.h"
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC  // the glTF library has the same functions
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_NO_STDIO
+#define STBI_FAILURE_USERMSG
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#include <stb_image.h>
+#pragma GCC diagnostic pop
+
+#include <limits>
+#include <string_view>
+
+#include "io/file_bytes.h"
+#include "pelage/error.h"
+
+namespace pelage {
+
+namespace {
+
+/// 16384 x 16384, the largest images that painting programs make: 1.6 GB as 16-bit colours. A header that promises more
+/// is a mistake, and must not reserve memory.
+constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
+
+struct EncodedImage {
+  std::string bytes;
+  const stbi_uc* data() const { return reinterpret_cast<const stbi_uc*>(bytes.data()); }
+  int size() const { return static_cast<int>(bytes.size()); }
+};
+
+[[noreturn]] void fail(const std::string& path) {
+  throw Error(Fault::input, std::string("is no PNG or JPEG image that can be read: ") + stbi_failure_reason(), {path});
+}
+
+/// A JPEG image whose end is missing is decoded without complaint. Behind the last start of a scan there must be an end
+/// of the image: in between, a byte 0xff is always followed by 0 or a restart.
+bool lacks_end(std::string_view bytes) {
+  if (!bytes.starts_with("\xff\xd8")) return false;
+  const std::size_t scan = bytes.rfind("\xff\xda"), end = bytes.rfind("\xff\xd9");
+  return end == std::string_view::npos || (scan != std::string_view::npos && end < scan);
+}
+
+/// The bytes of an image whose header makes sense.
+EncodedImage open_image(const std::string& path) {
+  EncodedImage image{read_file(path)};
+  if (image.bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw Error(Fault::input, "is larger than 2 GiB; an image of that size is of no use here", {path});
+  int width = 0, height = 0, channels = 0;
+  if (!stbi_info_from_memory(image.data(), image.size(), &width, &height, &channels)) fail(path);
+  if (std::int64_t{width} * height > most_pixels)
+    throw Error(Fault::input,
+                "the image has " + std::to_string(width) + " x " + std::to_string(height) + " pixels; at most " +
+                    std::to_string(most_pixels) + " can be read, make it smaller",
+                {path});
+  if (lacks_end(image.bytes)) throw Error(Fault::input, "the image ends early; write it again", {path});
+  return image;
+}
+
+}  // namespace
+
+Texture read_texture(const std::string& path) {
+  const EncodedImage image = open_image(path);
+  constexpr int channels = 3;
+  Texture texture;
+  int stored = 0;
+  const std::unique_ptr<stbi_us, void (*)(void*)> pixels(
+      stbi_load_16_from_memory(image.data(), image.size(), &texture.width, &texture.height, &stored, channels),
+      stbi_image_free);
+  if (!pixels) fail(path);
+  const auto count = static_cast<std::size_t>(channels) * static_cast<std::size_t>(texture.width) *
+                     static_cast<std::size_t>(texture.height);
+  texture.rgb = std::make_shared<const std::vector<std::uint16_t>>(pixels.get(), pixels.get() + count);
+  return texture;
+}
+
+void check_texture(const std::string& path) { open_image(path); }
+
+}  // namespace pelage

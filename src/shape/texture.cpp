@@ -1,0 +1,75 @@
+#include "shape/texture.h"
+
+#include <cmath>
+#include <utility>
+
+namespace pelage {
+
+namespace {
+
+/// The pixels between whose centres a place lies, along one axis.
+struct Neighbours {
+  std::size_t first, second;
+  double weight;  ///< of the second
+};
+
+/// The image reaches from 0 to 1 and repeats; the centre of pixel i lies at (i + 1/2) / count.
+Neighbours neighbours(double x, int count) {
+  double turn = x - std::floor(x);
+  if (!(turn < 1)) turn = 0;  // -1e-20 rounds to 1; what is not a number has no place
+  const double place = turn * count - 0.5;
+  const double floor = std::floor(place);
+  const int first = static_cast<int>(floor);
+  return {static_cast<std::size_t>((first + count) % count), static_cast<std::size_t>((first + 1) % count),
+          place - floor};
+}
+
+double luminance(const std::array<double, 3>& c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; }
+
+}  // namespace
+
+std::array<std::string, 4> attribute_names(const std::string& texture) {
+  return {texture, texture + "_1", texture + "_2", texture + "_3"};
+}
+
+std::array<double, 3> color_at(const Texture& texture, double u, double v) {
+  const auto [x0, x1, wx] = neighbours(u, texture.width);
+  const auto [y0, y1, wy] = neighbours(1 - v, texture.height);  // rows run downwards
+  const auto width = static_cast<std::size_t>(texture.width);
+  const std::uint16_t* rgb = texture.rgb->data();
+  std::array<double, 3> color;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto pixel = [&](std::size_t x, std::size_t y) { return rgb[3 * (y * width + x) + c] / 65535.0; };
+    const double upper = (1 - wx) * pixel(x0, y0) + wx * pixel(x1, y0);
+    const double lower = (1 - wx) * pixel(x0, y1) + wx * pixel(x1, y1);
+    color[c] = (1 - wy) * upper + wy * lower;
+  }
+  return color;
+}
+
+VertexAttributes texture_attributes(const Texture& texture, const std::vector<Triangle>& triangles,
+                                    std::size_t vertices, const Attribute& uv) {
+  std::vector<std::array<double, 3>> sum(vertices, std::array<double, 3>{});
+  std::vector<double> corners(vertices, 0);
+  for (std::size_t corner = 0; corner < 3 * triangles.size(); ++corner) {
+    const auto v = static_cast<std::size_t>(triangles[corner / 3][corner % 3]);
+    const double* at = uv.values.data() + 2 * (uv.domain == Domain::corner ? corner : v);
+    const std::array<double, 3> color = color_at(texture, at[0], at[1]);
+    for (std::size_t c = 0; c < 3; ++c) sum[v][c] += color[c];
+    ++corners[v];
+  }
+  std::array<std::vector<double>, 4> values;
+  for (auto& list : values) list.resize(vertices);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    if (corners[v] == 0) continue;
+    for (double& c : sum[v]) c /= corners[v];
+    values[0][v] = luminance(sum[v]);
+    for (std::size_t c = 0; c < 3; ++c) values[c + 1][v] = sum[v][c];
+  }
+  VertexAttributes result;
+  const auto names = attribute_names(texture.name);
+  for (std::size_t k = 0; k < names.size(); ++k) result[names[k]] = std::move(values[k]);
+  return result;
+}
+
+}  // namespace pelage
