@@ -93,7 +93,8 @@ TEST(TextureReader, RefusesTablesWithTooManySymbols) {
   std::string bytes = bytes_of(path);
   const std::size_t table = bytes.find("\xff\xc4") + 4;
   bytes[table + 15] = bytes[table + 16] = '\xff';
-  EXPECT_NE(error_of(file_of(bytes, "b.jpg")).find("damaged JPEG"), std::string::npos);
+  for (const std::string& start : {""s, "\xff"s})  // may be repeated in front of a marker
+    EXPECT_NE(error_of(file_of(start + bytes, "b.jpg")).find("damaged JPEG"), std::string::npos);
 }
 
 TEST(TextureReader, RefusesWhatEndsEarly) {
