@@ -35,12 +35,21 @@ struct EncodedImage {
   throw Error(Fault::input, std::string("is no PNG or JPEG image that can be read: ") + stbi_failure_reason(), {path});
 }
 
-/// A JPEG image whose end is missing is decoded without complaint. Behind the last start of a scan there must be an end
-/// of the image: in between, a byte 0xff is always followed by 0 or a restart.
-bool lacks_end(std::string_view bytes) {
-  if (!bytes.starts_with("\xff\xd8")) return false;
-  const std::size_t scan = bytes.rfind("\xff\xda"), end = bytes.rfind("\xff\xd9");
-  return end == std::string_view::npos || (scan != std::string_view::npos && end < scan);
+/// Whether any table of Huffman codes of a JPEG image counts more than its 256 symbols: stb_image 2.27 and older
+/// write beyond their own tables then. Walks on from every marker of such tables as stb_image does, wherever it is.
+bool overflows_tables(std::string_view bytes) {
+  if (!bytes.starts_with('\xff')) return false;
+  const auto byte = [&](std::size_t i) { return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0U; };
+  for (std::size_t m = bytes.find("\xff\xc4"); m != std::string_view::npos; m = bytes.find("\xff\xc4", m + 1)) {
+    const std::size_t end = m + 2 + (256 * byte(m + 2) + byte(m + 3));
+    for (std::size_t table = m + 4; table < end && byte(table) / 16 <= 1 && byte(table) % 16 <= 3;) {
+      std::size_t symbols = 0;
+      for (std::size_t length = 1; length <= 16; ++length) symbols += byte(table + length);
+      if (symbols > 256) return true;
+      table += 17 + symbols;
+    }
+  }
+  return false;
 }
 
 /// The bytes of an image whose header makes sense.
@@ -48,6 +57,8 @@ EncodedImage open_image(const std::string& path) {
   EncodedImage image{read_file(path)};
   if (image.bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
     throw Error(Fault::input, "is larger than 2 GiB; an image of that size is of no use here", {path});
+  if (overflows_tables(image.bytes))
+    throw Error(Fault::input, "is a damaged JPEG image; write it again, or as PNG", {path});
   int width = 0, height = 0, channels = 0;
   if (!stbi_info_from_memory(image.data(), image.size(), &width, &height, &channels)) fail(path);
   if (std::int64_t{width} * height > most_pixels)
@@ -55,7 +66,6 @@ EncodedImage open_image(const std::string& path) {
                 "the image has " + std::to_string(width) + " x " + std::to_string(height) + " pixels; at most " +
                     std::to_string(most_pixels) + " can be read, make it smaller",
                 {path});
-  if (lacks_end(image.bytes)) throw Error(Fault::input, "the image ends early; write it again", {path});
   return image;
 }
 

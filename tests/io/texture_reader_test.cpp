@@ -86,6 +86,17 @@ TEST(TextureReader, ReadsJpeg) {
     EXPECT_NE(error_of(file_of(whole.substr(0, size))), "") << size;
 }
 
+TEST(TextureReader, RefusesTablesWithTooManySymbols) {
+  const std::vector<std::uint8_t> pixels(3 * 16 * 16, 100);
+  const std::string path = (test::fresh_folder() / "a.jpg").string();
+  ASSERT_TRUE(stbi_write_jpg(path.c_str(), 16, 16, 3, pixels.data(), 95));
+  std::string bytes = bytes_of(path);
+  const std::size_t table = bytes.find("\xff\xc4") + 4;
+  bytes[table + 15] = bytes[table + 16] = '\xff';
+  for (const std::string& start : {""s, "\xff"s})  // may be repeated in front of a marker
+    EXPECT_NE(error_of(file_of(start + bytes, "b.jpg")).find("damaged JPEG"), std::string::npos);
+}
+
 TEST(TextureReader, RefusesWhatEndsEarly) {
   const std::string whole = bytes_of(picture());
   for (std::size_t size = 1; size < whole.size() - 12; size += 7)  // the last chunk is empty
