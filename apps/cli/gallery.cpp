@@ -41,10 +41,16 @@ struct GalleryOptions {
   bool json = false, quiet = false;
 };
 
-/// "gray-scott-spots-sphere.png"; of a file's path only its name.
-std::string file_name(const std::string& subject, const std::string& shape) {
-  std::string name = std::filesystem::path(subject).filename().string();
+/// Of a file's path only its name.
+std::string short_name(const GallerySubject& subject) {
+  std::string name = std::filesystem::path(subject.name).filename().string();
   if (const std::size_t extension = name.find(".toml"); extension != std::string::npos) name.erase(extension, 5);
+  return name;
+}
+
+/// "gray-scott-spots-sphere.png".
+std::string file_name(const GallerySubject& subject, const std::string& shape) {
+  std::string name = short_name(subject);
   for (char& c : name)
     if (c == ':' || c == '/' || c == ' ') c = '-';
   return name + "-" + shape + ".png";
@@ -75,7 +81,7 @@ void do_job(const Job& job, const GalleryOptions& options, const std::function<b
   try {
     const Image image = make_picture(job.subject->recipe, job.shape->mesh, options.picture_size, report);
     if (image.rgb.empty()) return;
-    write_png(with_caption(image, job.subject->name + ", " + job.shape->name, job.subject->title),
+    write_png(with_caption(image, short_name(*job.subject) + ", " + job.shape->name, job.subject->title),
               (std::filesystem::path(options.folder) / job.picture->file).string());
     report(1);
   } catch (const Error& error) {
@@ -90,7 +96,7 @@ std::vector<GalleryEntry> empty_entries(const std::vector<GallerySubject>& subje
   for (const GallerySubject& subject : subjects) {
     entries.push_back({subject.name, subject.title, subject.summary, subject.cite, {}});
     for (const GalleryShape& s : shapes)
-      entries.back().pictures.push_back({file_name(subject.name, s.name), subject.name + " on the " + s.name, ""});
+      entries.back().pictures.push_back({file_name(subject, s.name), subject.name + " on the " + s.name, ""});
   }
   return entries;
 }

@@ -195,8 +195,8 @@ cmp map.png one.png || fail "1 and 2 threads give different maps"
 succeed gallery --recipes --shape builtin:sphere?n=100 --picture-size 64 -o coats spots-large --json
 json 'd["pictures"] == [{"recipe": "spots-large", "shape": "sphere", "file": "spots-large-sphere.png", "failure": None}]'
 grep -q '<h1>Recipes</h1>' coats/index.html || fail "the page of recipes has no heading"
-expect 2 'did you mean "cheetah"' gallery --recipes -o coats cheeta
-expect 2 'recipes have sizes of their own' gallery --recipes --size 0.1 -o coats cheetah
+expect 2 'unknown recipe "cheeta"; did you mean "cheetah"' gallery --recipes -o coats cheeta
+expect 2 '--size is for models; recipes have' gallery --recipes --size 0.1 -o coats cheetah
 expect 3 'none.obj' gallery --shape none.obj -o coats turing
 
 # --- a gallery: pictures, an index whose links all lead somewhere, failures named -------------------------------
