@@ -173,24 +173,39 @@ TEST(Fair, OfASingleTriangleIsThatTriangle) {
   EXPECT_EQ(fair(mesh, {.steps = 2}).mesh.points, mesh.points);
 }
 
-/// Real scans and parts, which do not belong to the project.
+/// Real scans and parts, which do not belong to the project. No measure becomes worse, and the published pair and a
+/// part with sharp edges become as good as asked. Where triangles are folded over in the
+/// truth itself, as 70 of the large head, unfolding them counts as flips.
 TEST(Fair, NoisyMeshesWithTheirTruth) {
   const std::string folder = PELAGE_SHARED_MESHES;
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no shared meshes";
   struct Case {
     const char *truth, *noisy;
-    double mean;
-    std::size_t flips;
+    double mean = 90;
+    std::size_t flips = 0;
   };
-  for (const Case& c : {Case{"block_8771.obj", "block_8771_noisy04.obj", 4.0, 0},
-                        Case{"fandisk_6475.off", "noisy/fandisk_6475_n0.1_s1.off", 1.5, 0},
-                        Case{"fandisk_6475.off", "noisy/fandisk_6475_n0.3_s1.off", 2.8, 0},
-                        Case{"fandisk_6475.off", "noisy/fandisk_6475_xyz0.2_s2.off", 2.5, 0},
-                        Case{"fandisk_6475.off", "noisy/fandisk_6475_impulse0.5_s3.off", 2.5, 0}}) {
-    const TriangleMesh truth = read_shape(folder + "/" + c.truth).mesh;
-    const NormalErrors e = errors(fair(read_shape(folder + "/" + c.noisy).mesh).mesh, truth);
-    EXPECT_LT(e.mean, c.mean) << c.noisy;
-    EXPECT_LE(e.flipped, c.flips) << c.noisy;
+  for (const Case& c :
+       {Case{"block_8771.obj", "block_8771_noisy04.obj", 4.0},
+        Case{"fandisk_6475.off", "fandisk_6475_n0.1_s1.off", 1.5},
+        Case{"fandisk_6475.off", "fandisk_6475_n0.3_s1.off", 2.8},
+        Case{"fandisk_6475.off", "fandisk_6475_xyz0.2_s2.off", 2.5},
+        Case{"fandisk_6475.off", "fandisk_6475_impulse0.5_s3.off", 2.5},
+        Case{"bunny_29834.obj", "bunny_29834_n0.1_s1.obj"}, Case{"bunny_29834.obj", "bunny_29834_n0.3_s1.obj"},
+        Case{"bunny_3301.obj", "bunny_3301_n0.1_s1.obj"}, Case{"bunny_3301.obj", "bunny_3301_n0.3_s1.obj"},
+        Case{"sphere_642.obj", "sphere_642_n0.1_s1.obj"}, Case{"sphere_642.obj", "sphere_642_n0.3_s1.obj"},
+        Case{"venus_711.off", "venus_711_n0.1_s1.off"}, Case{"venus_711.off", "venus_711_n0.3_s1.off"},
+        Case{"venus_head_8268.off", "venus_head_8268_n0.1_s1.off", 90, 70},
+        Case{"venus_head_8268.off", "venus_head_8268_n0.3_s1.off", 90, 80}}) {
+    const std::string noisy_path = folder + (c.mean == 4.0 ? "/" : "/noisy/") + c.noisy;
+    const TriangleMesh truth = read_shape(folder + "/" + c.truth).mesh, noisy = read_shape(noisy_path).mesh;
+    const Faired faired = fair(noisy);
+    const Comparison before = compare(noisy, truth), after = compare(faired.mesh, truth);
+    EXPECT_LT(after.normals->mean, std::min(before.normals->mean, c.mean)) << c.noisy;
+    EXPECT_LE(after.normals->sharp, before.normals->sharp) << c.noisy;
+    EXPECT_LE(after.normals->flipped, c.flips) << c.noisy;
+    EXPECT_LT(after.distance, before.distance) << c.noisy;
+    const double volume = faired.report.volume_before;
+    EXPECT_LE(std::abs(faired.report.volume_after - volume), 0.005 * volume) << c.noisy;
   }
 }
 
