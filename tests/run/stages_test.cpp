@@ -89,6 +89,19 @@ TEST(Stages, SlicesAndCheckpointsInsideTheSecondStageKeepTheBits) {
   EXPECT_EQ(sliced.checkpoint(), whole.checkpoint());
 }
 
+/// Oscillations do not settle: the stage ends at its time, and the next one begins.
+TEST(Stages, OneThatNeverComesToRestEndsAtItsTime) {
+  Growth run = start(
+      "[[stage]]\nname = \"restless\"\nmodel = \"lambda-omega\"\nsize = 0.5\nstationary = 1e-3\nuntil = 5\n"
+      "[[stage]]\nmodel = \"turing\"\nsize = 0.5\nsteps = 5\ninitial = { b = \"4 + 0.1*restless.u\" }\n");
+  run.advance(100000);
+  ASSERT_TRUE(run.done());
+  EXPECT_EQ(run.stage(), 1);
+  EXPECT_EQ(run.finished().front().summary.status, RunStatus::time_reached);
+  EXPECT_NEAR(run.finished().front().summary.time, 5, 1e-9);
+  EXPECT_EQ(run.summary().status, RunStatus::steps_reached);
+}
+
 TEST(Stages, FrozenCoefficientsStayAndTheOthersGrow) {
   Growth run = start(two_stages);
   run.advance(61);
