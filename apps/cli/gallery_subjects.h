@@ -1,7 +1,6 @@
 #pragma once
 // What a gallery shows, and on what.
 
-#include <optional>
 #include <string>
 #include <vector>
 

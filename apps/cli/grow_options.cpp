@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include "base/suggest.h"
 #include "catalog/models.h"
@@ -42,10 +43,10 @@ void add_pattern_options(CLI::App& app, GrowOptions& o) {
           "Parameter of the model, or with STAGE. before it of a stage of a recipe; STAGE.size=LENGTH its size")
       ->type_name("[STAGE.]PARAM=VALUE")
       ->group(group);
-  app.add_option("--param-map", o.maps,
-                 "Parameter, or size, that differs from place to place: a formula of x, y, z, bx, nx, k1, "
-                 "attribute(NAME), "
-                 "..., or attribute:NAME for a vertex attribute of the shape; a size is a factor on --size")
+  app.add_option(
+         "--param-map", o.maps,
+         "Parameter, or size, that differs from place to place: a formula of x, y, z, bx, nx, k1, "
+         "attribute(NAME), ..., or attribute:NAME for a vertex attribute of the shape; a size is a factor on --size")
       ->type_name("[STAGE.]PARAM=FORMULA")
       ->allow_extra_args(false)
       ->group(group);
@@ -218,12 +219,18 @@ void apply_setting(const std::string& text, std::vector<Stage>& stages) {
     override_parameter(stage.parameters, parse_setting(name + text.substr(equals)));
 }
 
-/// --param-map [STAGE.]PARAM=FORMULA, or =attribute:NAME.
-void apply_map(const std::string& text, std::vector<Stage>& stages) {
+/// What stands before and behind the first "="; `expected` is what the message asks for when one of them is missing.
+std::pair<std::string, std::string> sides(const std::string& option, const std::string& text,
+                                          const std::string& expected) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-    throw Error(Fault::usage, "--param-map " + text + ": expected PARAM=FORMULA, for example beta=attribute:age");
-  std::string name = text.substr(0, equals), formula = text.substr(equals + 1);
+    throw Error(Fault::usage, option + " " + text + ": expected " + expected);
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+/// --param-map [STAGE.]PARAM=FORMULA, or =attribute:NAME.
+void apply_map(const std::string& text, std::vector<Stage>& stages) {
+  auto [name, formula] = sides("--param-map", text, "PARAM=FORMULA, for example beta=attribute:age");
   const std::string prefix = "attribute:";
   if (formula.starts_with(prefix)) formula = "attribute(" + formula.substr(prefix.size()) + ")";
   Stage& stage = stage_of(stages, name, "--param-map " + text);
@@ -235,12 +242,9 @@ void apply_map(const std::string& text, std::vector<Stage>& stages) {
 
 /// --texture NAME=FILE, instead of one of that name.
 void apply_texture(const std::string& text, std::vector<TextureFile>& textures) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-    throw Error(Fault::usage, "--texture " + text + ": expected NAME=FILE, for example age=age.png");
-  const std::string name = text.substr(0, equals);
-  std::erase_if(textures, [&](const TextureFile& t) { return t.name.value == name; });
-  textures.push_back({{name, {"--texture"}}, text.substr(equals + 1)});
+  const auto [name, file] = sides("--texture", text, "NAME=FILE, for example age=age.png");
+  std::erase_if(textures, [&name = name](const TextureFile& t) { return t.name.value == name; });
+  textures.push_back({{name, {"--texture"}}, file});
 }
 
 /// The size of the first stage; those of the others keep their proportion to it.

@@ -5,7 +5,6 @@
 
 #include "base/parallel.h"
 #include "fair/faces.h"
-#include "shape/normals.h"
 
 namespace pelage {
 
@@ -20,26 +19,12 @@ constexpr double excess = 1.6;
 /// Of noise alone the means over two rings (19 vertices) are below this share of their median at one vertex in ten.
 constexpr double quiet_quantile = 0.1, quiet_share = 0.58;
 
-/// The squared way along the normals at every vertex that is free, 0 elsewhere.
-std::vector<double> squared_ways(const Topology& topology, const std::vector<char>& fixed,
-                                 const std::vector<Point>& from, const std::vector<Point>& points) {
-  const std::vector<Point> normal = vertex_normals(topology.triangles, points);
-  std::vector<double> square(points.size(), 0);
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    if (fixed[v]) continue;
-    const double way = vector3(normal[v]).dot(vector3(points[v]) - vector3(from[v]));
-    square[v] = way * way;
-  }
-  return square;
-}
-
 /// The vertex and the free vertices of two rings around it, each once.
 void two_rings(const Topology& topology, const std::vector<char>& fixed, Index v, std::vector<Index>& ring,
                std::vector<Index>& near) {
-  topology.one_ring(v, ring);
-  near = ring;
-  for (const Index w : std::vector<Index>(ring)) {
-    topology.one_ring(w, ring);
+  topology.one_ring(v, near);
+  for (std::size_t k = 0, first = near.size(); k < first; ++k) {
+    topology.one_ring(near[k], ring);
     near.insert(near.end(), ring.begin(), ring.end());
   }
   std::erase_if(near, [&](Index w) { return w == v || fixed[w]; });
@@ -109,7 +94,7 @@ double squared_way_of_noise(const std::vector<char>& fixed, const std::vector<do
 
 void give_back_detail(const Topology& topology, const std::vector<char>& fixed, const std::vector<Point>& from,
                       std::vector<Point>& points) {
-  const std::vector<double> square = squared_ways(topology, fixed, from, points);
+  const std::vector<double> square = squared_ways(topology.triangles, fixed, from, points);
   const Around mean = means_around(topology, fixed, square);
   const double slope = regression_slope(fixed, mean.without, square);
   const double trust = std::clamp((slope - no_detail) / (all_detail - no_detail), 0.0, 1.0);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "shape/normals.h"
 
 namespace pelage {
 
@@ -112,6 +113,18 @@ std::vector<double> centroid_spacing(const Topology& topology, const FaceLists& 
     std::swap(spacing, next);
   }
   return spacing;
+}
+
+std::vector<double> squared_ways(const std::vector<Triangle>& triangles, const std::vector<char>& fixed,
+                                 const std::vector<Point>& from, const std::vector<Point>& points) {
+  const std::vector<Point> normal = vertex_normals(triangles, points);
+  std::vector<double> square(points.size(), 0);
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (fixed[v]) continue;
+    const double way = vector3(normal[v]).dot(vector3(points[v]) - vector3(from[v]));
+    square[v] = way * way;
+  }
+  return square;
 }
 
 double mean_edge(const Topology& topology, const std::vector<Point>& points) {

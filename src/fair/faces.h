@@ -49,6 +49,10 @@ FaceLists discs(const FaceLists& neighbour, const std::vector<Vector3>& centroid
 std::vector<double> centroid_spacing(const Topology& topology, const FaceLists& neighbour,
                                      const std::vector<Vector3>& centroid, int rounds);
 
+/// The squared way from `from` to `points` along the normals there, at every vertex that is not fixed; 0 elsewhere.
+std::vector<double> squared_ways(const std::vector<Triangle>& triangles, const std::vector<char>& fixed,
+                                 const std::vector<Point>& from, const std::vector<Point>& points);
+
 /// Mean length of the edges.
 double mean_edge(const Topology& topology, const std::vector<Point>& points);
 

@@ -47,15 +47,9 @@ std::unique_ptr<FairMethod> make_method(const FairState& state, const FairOption
 
 /// Root mean square of the way of the vertices along their present normals.
 double moved_along_normals(const FairState& state, const std::vector<Point>& from) {
-  const std::vector<Point> normal = vertex_normals(state.topology.triangles, state.points);
   double sum = 0;
-  std::size_t count = 0;
-  for (std::size_t v = 0; v < from.size(); ++v) {
-    if (state.fixed[v]) continue;
-    const double way = vector3(normal[v]).dot(vector3(state.points[v]) - vector3(from[v]));
-    sum += way * way;
-    ++count;
-  }
+  for (const double square : squared_ways(state.topology.triangles, state.fixed, from, state.points)) sum += square;
+  const auto count = std::ranges::count(state.fixed, char{0});
   return count ? std::sqrt(sum / static_cast<double>(count)) : 0;
 }
 
