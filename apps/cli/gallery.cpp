@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "base/job_progress.h"
 #include "base/parallel.h"
@@ -57,8 +58,8 @@ std::string file_name(const GallerySubject& subject, const std::string& shape) {
 }
 
 /// One recipe on one shape; an empty image when `report` asks to stop.
-Image make_picture(const Recipe& recipe, const TriangleMesh& shape, int size,
-                   const std::function<bool(double)>& report) {
+Image make_picture(Recipe recipe, const TriangleMesh& shape, int size, const std::function<bool(double)>& report) {
+  fit_method(recipe, shape);
   Run run(resolve(recipe, shape));
   while (!run.done()) {
     if (!report(share_of_run * run.fraction())) return {};
@@ -99,6 +100,23 @@ std::vector<GalleryEntry> empty_entries(const std::vector<GallerySubject>& subje
       entries.back().pictures.push_back({file_name(subject, s.name), subject.name + " on the " + s.name, ""});
   }
   return entries;
+}
+
+void require_distinct_files(const std::vector<GalleryEntry>& entries) {
+  std::set<std::string> files;
+  for (const GalleryEntry& entry : entries)
+    for (const GalleryPicture& picture : entry.pictures)
+      if (!files.insert(picture.file).second)
+        throw Error(Fault::usage, "two pictures would be called " + picture.file +
+                                      "; the shapes and the names need file names of their own");
+}
+
+void warn_of_valences(const std::vector<GalleryShape>& shapes) {
+  for (const GalleryShape& shape : shapes) {
+    Recipe plain;
+    if (const std::string fitted = fit_method(plain, shape.mesh); !fitted.empty())
+      std::fprintf(stderr, "pelage: warning: %s: %s\n", shape.name.c_str(), fitted.c_str());
+  }
 }
 
 std::vector<Job> jobs_for(const std::vector<GallerySubject>& subjects, const std::vector<GalleryShape>& shapes,
@@ -159,11 +177,13 @@ std::vector<GallerySubject> wanted_subjects(const GalleryOptions& options) {
 void gallery(const GalleryOptions& options) {
   const std::vector<GallerySubject> subjects = wanted_subjects(options);
   const std::vector<GalleryShape> shapes = gallery_shapes(options.shapes, options.recipes);
+  std::vector<GalleryEntry> entries = empty_entries(subjects, shapes);
+  require_distinct_files(entries);
   make_folder(options.folder);
+  warn_of_valences(shapes);
   catch_interrupts();
   const ThreadLimit threads(options.threads);
   ProgressBar bar(options.quiet ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
-  std::vector<GalleryEntry> entries = empty_entries(subjects, shapes);
   const std::vector<Job> jobs = jobs_for(subjects, shapes, entries);
   make_pictures(jobs, options, bar.progress());
   const std::string index = (std::filesystem::path(options.folder) / "index.html").string();

@@ -47,27 +47,6 @@ auto interruptible(const std::string& when, Work&& work) {
   }
 }
 
-/// Loop elements are made for moderate valences; who did not ask for them gets what works.
-void choose_method(Recipe& recipe, bool asked, const TriangleMesh& mesh, GrowReport& report) {
-  if (asked || recipe.stages[0].method.value != "loop") return;
-  const Index valence = max_valence(make_topology(mesh.points.size(), mesh.triangles));
-  if (valence <= max_loop_valence) return;
-  recipe.stages[0].method.value = "linear";
-  report.warning("a vertex has " + std::to_string(valence) + " edges, more than the " +
-                 std::to_string(max_loop_valence) + " that Loop elements take; using --method linear");
-}
-
-/// A given step may be beyond what the scheme stands, and the anisotropy beyond what the mesh carries.
-void warn_about_stage(const Run& run, GrowReport& report) {
-  const std::string stage = run.stages().size() > 1 ? "stage " + run.program().name + ": " : "";
-  const double step = run.summary().step, stable = run.stable_step();
-  if (step > stable)
-    report.warning(stage + "the step " + brief(step) + " is beyond " + brief(stable) +
-                   ", the largest that is stable for " + run.program().stepper +
-                   "; what grows may be an artefact of the step");
-  for (const std::string& text : run.operators().warnings()) report.warning(stage + text);
-}
-
 void restore(Run& run, const std::string& path) {
   if (path.empty()) return;
   const std::string bytes = read_file(path);
@@ -94,14 +73,11 @@ std::int64_t next_steps(std::int64_t steps, double seconds) {
 
 void grow_to_the_end(Run& run, const GrowOptions& options, const Progress& progress, GrowReport& report) {
   std::int64_t steps = 1;
-  std::size_t stage = run.stage();
   while (!run.done() && progress("growing", run.fraction())) {
     const Stopwatch watch;
     run.advance(steps);
     steps = next_steps(steps, watch.seconds());
-    if (run.stage() == stage) continue;
-    stage = run.stage();
-    warn_about_stage(run, report);
+    report.warnings(run);
   }
   if (run.summary().status == RunStatus::failed) throw Error(Fault::numerics, run.summary().message);
   if (!options.checkpoint.empty()) write_file(options.checkpoint, run.checkpoint());
@@ -155,13 +131,13 @@ void grow(const GrowOptions& options) {
   progress("reading " + recipe.shape, 0);
   ShapeFile file = read_shape(recipe.shape);
   report.shape(recipe.shape, file);
-  const bool asked_for_method = options.method || recipe.stages[0].method.where.line > 0;
-  choose_method(recipe, asked_for_method, file.mesh, report);
+  if (!options.method)
+    if (const std::string fitted = fit_method(recipe, file.mesh); !fitted.empty()) report.warning(fitted);
 
   Run run = interruptible("before the growth began; nothing was written",
                           [&] { return Run(resolve(recipe, std::move(file.mesh)), progress); });
   restore(run, options.resume);
-  warn_about_stage(run, report);
+  report.warnings(run);
   report.pattern(run);
   const Stopwatch growth;
   grow_to_the_end(run, options, progress, report);

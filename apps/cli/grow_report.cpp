@@ -64,6 +64,10 @@ void GrowReport::warning(const std::string& text) {
   json_["warnings"].push_back(text);
 }
 
+void GrowReport::warnings(const Run& run) {
+  while (warnings_of_run_ < run.warnings().size()) warning(run.warnings()[warnings_of_run_++]);
+}
+
 void GrowReport::shape(const std::string& name, const ShapeFile& file) {
   line("shape", name + ": " + counted(file.mesh.points.size(), "vertex") + ", " +
                     counted(file.mesh.triangles.size(), "triangle"));

@@ -17,6 +17,8 @@ class GrowReport {
 
   void shape(const std::string& name, const ShapeFile& file);
   void warning(const std::string& text);
+  /// Those that the run did not give before.
+  void warnings(const Run& run);
   void pattern(const Run& run);
   void surface(const MovingSurface& surface);
   void growth(const Run& run, double seconds);
@@ -30,6 +32,7 @@ class GrowReport {
   Form form_;
   ProgressBar& bar_;
   Json json_ = Json::object();
+  std::size_t warnings_of_run_ = 0;
 };
 
 }  // namespace pelage

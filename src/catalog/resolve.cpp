@@ -15,6 +15,7 @@
 #include "catalog/stage_directions.h"
 #include "catalog/stage_model.h"
 #include "catalog/textures.h"
+#include "discretise/discretisation.h"
 #include "look/layers.h"
 #include "look/ramp.h"
 #include "react/place_values.h"
@@ -208,6 +209,16 @@ void check_names(const Recipe& recipe) {
   TriangleMesh stand_in;  // of extent 1
   stand_in.points = {{0, 0, 0}, {1, 0, 0}};
   resolve(recipe, std::move(stand_in));
+}
+
+std::string fit_method(Recipe& recipe, const TriangleMesh& mesh) {
+  Given<std::string>& method = recipe.stages[0].method;
+  if (method.value != "loop" || method.where.line > 0) return "";
+  const Index valence = max_valence(make_topology(mesh.points.size(), mesh.triangles));
+  if (valence <= max_loop_valence) return "";
+  method.value = "linear";
+  return "a vertex has " + std::to_string(valence) + " edges, more than the " + std::to_string(max_loop_valence) +
+         " that Loop elements take; using --method linear";
 }
 
 std::vector<std::string> recipe_names() {

@@ -17,6 +17,10 @@ std::vector<Program> resolve(const Recipe& recipe, TriangleMesh shape);
 /// The same without a shape, which may take long to read: finds all but what depends on the shape's attributes.
 void check_names(const Recipe& recipe);
 
+/// Loop elements are made for moderate valences. Gives a recipe that does not ask for them by a line of its own linear
+/// elements where the mesh has more; says so for people, or returns nothing where the method may stay.
+std::string fit_method(Recipe& recipe, const TriangleMesh& mesh);
+
 /// The built-in recipe of that name, or the one in the file when the name ends in .toml.
 Recipe load_recipe(const std::string& name_or_path);
 std::vector<std::string> recipe_names();

@@ -5,6 +5,7 @@
 
 #include "base/number.h"
 #include "base/parallel.h"
+#include "base/quantile.h"
 #include "base/suggest.h"
 #include "discretise/assembly.h"
 #include "discretise/quadrature.h"
@@ -119,10 +120,8 @@ class Diffusion {
   static double find_contrast(const std::vector<Eigen::Matrix3d>& structure) {
     std::vector<double> slope;
     for (const Eigen::Matrix3d& s : structure) slope.push_back(std::sqrt(s.trace()));
-    const auto median = slope.begin() + static_cast<std::ptrdiff_t>(slope.size() / 2);
-    std::nth_element(slope.begin(), median, slope.end());
-    const double largest = *std::max_element(median, slope.end());
-    return std::max(contrast_factor * *median, least_contrast * largest);
+    const double largest = *std::max_element(slope.begin(), slope.end());
+    return std::max(contrast_factor * quantile(slope, 0.5), least_contrast * largest);
   }
 
   std::vector<Tensor> tensors(const Field& smooth, double& contrast) const {

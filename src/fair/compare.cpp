@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "base/quantile.h"
 #include "fair/faces.h"
 #include "fair/volume.h"
 #include "pelage/error.h"
@@ -45,9 +46,7 @@ NormalErrors normal_errors(const TriangleMesh& mesh, const TriangleMesh& referen
     }
   }
   if (sharp_count) errors.sharp /= static_cast<double>(sharp_count);
-  const auto nth = angle.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(angle.size() - 1));
-  std::nth_element(angle.begin(), nth, angle.end());
-  errors.quantile95 = *nth;
+  errors.quantile95 = quantile(angle, 0.95);
   return errors;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/quantile.h"
 #include "fair/faces.h"
 
 namespace pelage {
@@ -82,12 +83,8 @@ double squared_way_of_noise(const std::vector<char>& fixed, const std::vector<do
   std::vector<double> all;
   for (std::size_t v = 0; v < mean.size(); ++v)
     if (!fixed[v]) all.push_back(mean[v]);
-  const auto quantile = [&](double share) {
-    const auto at = all.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(all.size()));
-    std::nth_element(all.begin(), at, all.end());
-    return *at;
-  };
-  return std::min(quantile(0.5), quantile(quiet_quantile) / quiet_share);
+  if (all.empty()) return 0;
+  return std::min(quantile(all, 0.5), quantile(all, quiet_quantile) / quiet_share);
 }
 
 }  // namespace

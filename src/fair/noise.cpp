@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/quantile.h"
 #include "fair/faces.h"
 
 namespace pelage {
@@ -67,10 +68,7 @@ double noise_of_fits(const Topology& topology, const std::vector<Point>& points,
       },
       256);
   std::erase_if(all, [](double r) { return r < 0; });
-  if (all.empty()) return 0;
-  const auto quantile = all.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(all.size() - 1));
-  std::nth_element(all.begin(), quantile, all.end());
-  return *quantile;
+  return all.empty() ? 0 : quantile(all, share);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/quantile.h"
 
 namespace pelage {
 
@@ -96,9 +97,7 @@ double NormalFilter::guidance_range() const {
   for (Index h = 0; h < static_cast<Index>(topology_.twin.size()); ++h)
     if (topology_.twin[h] > h) difference.push_back((guidance_[h / 3] - guidance_[topology_.twin[h] / 3]).norm());
   if (difference.empty()) return largest_range;
-  const auto median = difference.begin() + static_cast<std::ptrdiff_t>(difference.size() / 2);
-  std::nth_element(difference.begin(), median, difference.end());
-  return std::clamp(range_factor * *median, smallest_range, largest_range);
+  return std::clamp(range_factor * quantile(difference, 0.5), smallest_range, largest_range);
 }
 
 /// The value at the face of the linear function through the weighted normals around it.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/quantile.h"
 #include "base/suggest.h"
 #include "look/layers.h"
 #include "look/ramp.h"
@@ -106,12 +107,7 @@ std::vector<Point> limit_normals(const LimitMasks& masks, const std::vector<Poin
 /// Colours of a field, its lowest and highest half percent at the ends of the ramp.
 std::vector<double> colours(const std::vector<double>& field, const Look& look) {
   std::vector<double> sorted = field;
-  auto quantile = [&](double q) {
-    const auto nth = sorted.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(sorted.size() - 1));
-    std::nth_element(sorted.begin(), nth, sorted.end());
-    return *nth;
-  };
-  const double low = quantile(ramp_quantile), high = quantile(1 - ramp_quantile);
+  const double low = quantile(sorted, ramp_quantile), high = quantile(sorted, 1 - ramp_quantile);
   const Ramp ramp = named_ramp(look.ramp.value);
   std::vector<double> values(3 * field.size());
   parallel_for(field.size(), [&](std::size_t begin, std::size_t end) {

@@ -36,6 +36,7 @@ constexpr double share_of_stable_step = 0.8;
 /// Amounts are kept to this share whenever the surface moves, far below the error of a step.
 constexpr double amount_tolerance = 1e-12;
 
+/// Largest step that linear analysis allows the "paper" and "explicit" steppers [model time]; infinite for others.
 double find_stable_step(const Program& p, const Operators& operators) {
   if (p.stepper == "sbdf2") return std::numeric_limits<double>::infinity();
   return largest_stable_step(p.model, p.stepper, operators.largest_k2() * p.length_unit * p.length_unit);
@@ -59,13 +60,23 @@ Run::Run(std::vector<Program> stages, const Progress& progress) : stages_(std::m
 void Run::begin_stage(const Progress& progress) {
   operators_ = std::make_unique<Operators>(program(), progress);
   stepper_ = make_stepper(program().stepper);
-  stable_step_ = find_stable_step(program(), *operators_);
-  step_ = first_step(program(), stable_step_);
+  const double stable_step = find_stable_step(program(), *operators_);
+  step_ = first_step(program(), stable_step);
   state_ = {};
   state_.now = operators_->initial();
   summary_ = {};
   summary_.step = step_;
+  warn_about_stage(stable_step);
   check_stop();
+}
+
+void Run::warn_about_stage(double stable_step) {
+  const std::string stage = stages_.size() > 1 ? "stage " + program().name + ": " : "";
+  if (step_ > stable_step)
+    warnings_.push_back(stage + "the step " + number(step_) + " is beyond " + number(stable_step) +
+                        ", the largest that is stable for " + program().stepper +
+                        "; what grows may be an artefact of the step");
+  for (const std::string& text : operators_->warnings()) warnings_.push_back(stage + text);
 }
 
 void Run::next_stage() {
@@ -369,7 +380,10 @@ void Run::restore(const std::string& bytes) {
   Snapshot s = read_snapshot(bytes);
   if (!fits(s)) throw Error(Fault::input, foreign);
   finished_ = std::move(s.finished);
-  if (s.stage != stage_ || surface_) enter_stage(s.stage, surface_ ? as_points(s.start[0]) : program().shape.points);
+  if (s.stage != stage_ || surface_) {
+    warnings_.clear();
+    enter_stage(s.stage, surface_ ? as_points(s.start[0]) : program().shape.points);
+  }
   state_ = std::move(s.state);
   if (surface_) {
     s.surface.faired = as_points(s.faired[0]);

@@ -51,8 +51,9 @@ class Run {
   /// Fraction of the way to the end, as far as it is known.
   double fraction() const;
 
-  /// Largest step that linear analysis allows the "paper" and "explicit" steppers [model time]; infinite for others.
-  double stable_step() const { return stable_step_; }
+  /// What may spoil the stages that were begun: a given step beyond what the scheme stands, more anisotropy than the
+  /// mesh carries. Never removed while the run goes on.
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// The stage in progress, or the last one.
   const Program& program() const { return stages_[stage_]; }
@@ -83,6 +84,7 @@ class Run {
   struct Snapshot;
   bool stage_done() const { return summary_.status != RunStatus::running; }
   void begin_stage(const Progress& progress);
+  void warn_about_stage(double stable_step);
   void next_stage();
   void enter_stage(std::size_t number, std::vector<Point> points);
   Snapshot read_snapshot(const std::string& bytes) const;
@@ -101,7 +103,7 @@ class Run {
   std::unique_ptr<MovingSurface> surface_;
   std::unique_ptr<Stepper> stepper_;
   State state_;
-  double stable_step_ = 0;
+  std::vector<std::string> warnings_;
   double step_ = 0;
   RunSummary summary_;
 };

@@ -204,6 +204,7 @@ gallery=(gallery --size 0.4 --picture-size 64)
 expect 2 '-o|--output is required' gallery turing
 expect 2 'unknown model "turin"' gallery -o page turin
 expect 2 '--picture-size: "3" is not' gallery -o page --picture-size 3
+expect 2 'two pictures would be called turing-sphere.png' gallery --shape builtin:sphere --shape builtin:sphere?n=200 -o page turing
 touch no_folder
 expect 5 'no_folder' gallery -o no_folder turing
 succeed "${gallery[@]}" -o page brusselator schnakenberg --json
@@ -284,12 +285,19 @@ PYTHON
 succeed grow wheel.off --size 2u --steps 1 --detail 0 -o a.ply
 grep -q 'pelage: warning: a vertex has 300 edges.*linear' stderr || fail "no warning about the valence"
 expect 3 'a vertex has 300 edges' grow wheel.off --size 2u --steps 1 --method loop -o a.ply
+succeed gallery --shape wheel.off --size 1u --picture-size 64 -o wheel schnakenberg
+grep -q 'pelage: warning: wheel: a vertex has 300 edges.*linear' stderr || fail "gallery does not warn about the valence"
 
 # --- steps beyond what is stable ---------------------------------------------------------------------------------
 succeed grow $sphere "${quick[@]}" --stepper paper --step 2 -o a.ply
 grep -q 'pelage: warning: the step 2 is beyond 0.714' stderr || fail "no warning about the step"
 succeed grow $sphere "${quick[@]}" --stepper paper --step 0.7 -o a.ply
 grep -q warning stderr && fail "a warning about a stable step"
+for stage in one two three; do
+  printf '[[stage]]\nname = "%s"\nmodel = "turing"\nstepper = "paper"\nstep = 2\nsteps = 1\n' $stage
+done >steps.toml
+succeed grow $sphere --recipe steps.toml --size 0.4 --detail 0 -o a.ply
+[ "$(grep -c 'warning: stage .*: the step 2 is beyond' stderr)" = 3 ] || fail "not every stage warns: $(cat stderr)"
 
 # --- same bits: threads, and a run that was stopped and resumed ------------------------------------------------
 grown=(grow builtin:animal?n=1000 --size 0.15 --detail 1)
