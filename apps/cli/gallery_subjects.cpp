@@ -46,7 +46,7 @@ std::vector<GallerySubject> recipe_subjects(const std::vector<std::string>& name
   for (const std::string& name : names.empty() ? recipe_names() : names) {
     Recipe recipe = load_recipe(name);
     check_names(recipe);
-    subjects.push_back({name, recipe.name, recipe.summary, "", std::move(recipe)});
+    subjects.push_back({name, recipe.summary.empty() ? recipe.name : recipe.summary, "", "", std::move(recipe)});
   }
   return subjects;
 }

@@ -12,7 +12,7 @@ namespace pelage {
 /// A model, a variant or a recipe.
 struct GallerySubject {
   std::string name;                  ///< what --model or --recipe takes
-  std::string title, summary, cite;  ///< the last two empty for a variant
+  std::string title, summary, cite;  ///< the last two empty for variants and recipes
   Recipe recipe;
 };
 
