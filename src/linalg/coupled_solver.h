@@ -13,7 +13,8 @@ namespace pelage {
 /// rounding: what is conserved stays so however loose the tolerance is.
 class CoupledSolver {
  public:
-  /// Prepares for these matrices; quick where only the right-hand sides have changed since.
+  /// Prepares for these matrices; quick where only the right-hand sides have changed since. The basis, which may speed
+  /// up the solves, is borrowed until the next call.
   void update(const SparseMatrix& mass, const SparseMatrix& stiffness, const Eigen::MatrixXd& c,
               const VertexBasis& basis = {});
   /// x holds the first guess and the result, one vector per field. The report adds up iterations and holds the largest
