@@ -27,8 +27,6 @@ void join(const SolveReport& part, SolveReport& whole) {
 
 void CoupledSolver::update(const SparseMatrix& mass, const SparseMatrix& stiffness, const Eigen::MatrixXd& c,
                            const VertexBasis& basis) {
-  for (Block& block : blocks_)
-    if (block.sharpening) block.sharpening->basis = basis;
   if (pattern_ == mass.pattern && c_.rows() == c.rows() && c_ == c) return;
   pattern_ = mass.pattern;
   c_ = c;

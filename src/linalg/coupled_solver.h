@@ -13,8 +13,7 @@ namespace pelage {
 /// rounding: what is conserved stays so however loose the tolerance is.
 class CoupledSolver {
  public:
-  /// Prepares for these matrices; quick where only the right-hand sides have changed since. The basis, which may speed
-  /// up the solves, is borrowed until the next call.
+  /// Prepares for these matrices; quick where only the right-hand sides have changed since.
   void update(const SparseMatrix& mass, const SparseMatrix& stiffness, const Eigen::MatrixXd& c,
               const VertexBasis& basis = {});
   /// x holds the first guess and the result, one vector per field. The report adds up iterations and holds the largest

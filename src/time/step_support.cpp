@@ -101,7 +101,6 @@ void advance(const System& system, State& state, double dt, std::vector<Vector>&
 void StepMatrix::update(const System& system, std::size_t number, double alpha, double beta) {
   const Species& species = system.species[number];
   const SparseMatrix& mass = mass_of(system, number);
-  if (sharpening_) sharpening_->basis = vertex_basis(system);  // borrowed for this step
   if (alpha == alpha_ && beta == beta_ && species.revision == revision_ && matrix_.pattern == mass.pattern) return;
   alpha_ = alpha;
   beta_ = beta;
