@@ -14,16 +14,15 @@ namespace {
 
 using Sums = Eigen::Array2d;
 
-/// x += alpha p, r -= alpha q, but r = 0 where D^-1 is; returns (r . r, r . D^-1 r): one pass over memory instead of
-/// four.
+/// x += alpha p, r -= alpha q; returns (r . r, r . D^-1 r), where D^-1 is not 0: one pass over memory instead of four.
 Sums update(double alpha, const Vector& p, const Vector& q, const Vector& inverse_diagonal, Vector& x, Vector& r) {
   return ordered_sum(static_cast<std::size_t>(x.size()), Sums{0, 0}, [&](std::size_t begin, std::size_t end) {
     double rr = 0, rz = 0;
     for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i) {
       x[i] += alpha * p[i];
-      r[i] = inverse_diagonal[i] != 0 ? r[i] - alpha * q[i] : 0;
+      r[i] -= alpha * q[i];
       const double square = r[i] * r[i];
-      rr += square;
+      rr += inverse_diagonal[i] != 0 ? square : 0;
       rz += square * inverse_diagonal[i];
     }
     return Sums{rr, rz};
@@ -64,20 +63,15 @@ SolveReport ConjugateGradient::solve(const SparseMatrix& a, const Vector& invers
     report.residual = std::sqrt(sums[0]) / b_norm;
     report.converged = std::sqrt(sums[0]) <= target;
     if (report.converged || report.iterations >= options.max_iterations || !std::isfinite(sums[0])) return report;
-    const double rz = options.sharpening ? sharpen(*options.sharpening, inverse_diagonal, r_, t_, z_) : sums[1];
-    const double beta = rz_old == 0 ? 0 : rz / rz_old;
-    if (options.sharpening)
-      axpby(1, z_, beta, p_);
-    else
-      next_direction(r_, inverse_diagonal, beta, p_);
+    next_direction(r_, inverse_diagonal, rz_old == 0 ? 0 : sums[1] / rz_old, p_);
     apply(a, p_, q_);
     const double curvature = dot(p_, q_);
     if (!(curvature > 0)) {
       report.positive_definite = false;
       return report;
     }
-    rz_old = rz;
-    sums = update(rz / curvature, p_, q_, inverse_diagonal, x, r_);
+    rz_old = sums[1];
+    sums = update(rz_old / curvature, p_, q_, inverse_diagonal, x, r_);
     ++report.iterations;
   }
 }

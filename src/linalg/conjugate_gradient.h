@@ -1,7 +1,7 @@
 #pragma once
 // Preconditioned conjugate gradients (Hestenes, Stiefel 1952) for symmetric positive definite systems.
 
-#include "linalg/sharpening.h"
+#include "linalg/sparse.h"
 
 namespace pelage {
 
@@ -16,19 +16,18 @@ struct ConjugateGradientOptions {
   double tolerance = 1e-10;  ///< on |b - A x| / |b|. A warm start satisfies a loose tolerance without any iteration
                              ///< while a pattern still grows slowly: keep it far below the change of one step.
   int max_iterations = 2000;
-  const Sharpening* sharpening = nullptr;  ///< of the preconditioner; null: Jacobi's
 };
 
 /// Work vectors, kept between solves of the same size.
 class ConjugateGradient {
  public:
-  /// Solves A x = b, preconditioned by the diagonal or by its sharpened form; x holds the first guess and the result.
-  /// Unknowns whose inverse diagonal is 0 are held: they keep the value of the guess, and their equations do not count.
+  /// Solves A x = b with Jacobi preconditioning; x holds the first guess and the result. Unknowns whose inverse
+  /// diagonal is 0 are held: they keep the value of the guess, and their equations do not count.
   SolveReport solve(const SparseMatrix& a, const Vector& inverse_diagonal, const Vector& b, Vector& x,
                     const ConjugateGradientOptions& options = {});
 
  private:
-  Vector r_, p_, q_, t_, z_;
+  Vector r_, p_, q_;
 };
 
 /// One solve from a zero guess, for occasional use.

@@ -25,8 +25,7 @@ void join(const SolveReport& part, SolveReport& whole) {
 
 }  // namespace
 
-void CoupledSolver::update(const SparseMatrix& mass, const SparseMatrix& stiffness, const Eigen::MatrixXd& c,
-                           const VertexBasis& basis) {
+void CoupledSolver::update(const SparseMatrix& mass, const SparseMatrix& stiffness, const Eigen::MatrixXd& c) {
   if (pattern_ == mass.pattern && c_.rows() == c.rows() && c_ == c) return;
   pattern_ = mass.pattern;
   c_ = c;
@@ -35,19 +34,16 @@ void CoupledSolver::update(const SparseMatrix& mass, const SparseMatrix& stiffne
   t_ = schur.matrixT();
   integral_ = mass * Vector::Ones(mass.rows());
   blocks_.clear();
-  for (Eigen::Index i = 0; i < c.rows(); i += blocks_.back().size)
-    blocks_.push_back(make_block(mass, stiffness, basis, i));
+  for (Eigen::Index i = 0; i < c.rows(); i += blocks_.back().size) blocks_.push_back(make_block(mass, stiffness, i));
 }
 
 CoupledSolver::Block CoupledSolver::make_block(const SparseMatrix& mass, const SparseMatrix& stiffness,
-                                               const VertexBasis& basis, Eigen::Index first) const {
+                                               Eigen::Index first) const {
   Block block;
   block.first = first;
   if (first + 1 == t_.rows() || t_(first + 1, first) == 0) {
     combine(1, mass, t_(first, first), stiffness, block.real);
-    const Vector d = diagonal(block.real);
-    block.inverse_diagonal = inverse(d);
-    block.sharpening = make_sharpening(basis, diagonal(mass), d);
+    block.inverse_diagonal = inverse(diagonal(block.real));
     return block;
   }
   block.size = 2;
@@ -63,9 +59,7 @@ CoupledSolver::Block CoupledSolver::make_block(const SparseMatrix& mass, const S
 
 SolveReport CoupledSolver::solve_real(const Block& block, const Vector& f, Vector& y,
                                       const ConjugateGradientOptions& options) {
-  ConjugateGradientOptions own = options;
-  if (block.sharpening) own.sharpening = &*block.sharpening;
-  const SolveReport report = real_solver_.solve(block.real, block.inverse_diagonal, f, y, own);
+  const SolveReport report = real_solver_.solve(block.real, block.inverse_diagonal, f, y, options);
   y.array() += (f.sum() - dot(integral_, y)) / integral_.sum();
   return report;
 }

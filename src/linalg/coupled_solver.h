@@ -14,8 +14,7 @@ namespace pelage {
 class CoupledSolver {
  public:
   /// Prepares for these matrices; quick where only the right-hand sides have changed since.
-  void update(const SparseMatrix& mass, const SparseMatrix& stiffness, const Eigen::MatrixXd& c,
-              const VertexBasis& basis = {});
+  void update(const SparseMatrix& mass, const SparseMatrix& stiffness, const Eigen::MatrixXd& c);
   /// x holds the first guess and the result, one vector per field. The report adds up iterations and holds the largest
   /// residual; not positive_definite: a real t is so negative that M + t K is indefinite.
   SolveReport solve(const SparseMatrix& stiffness, const std::vector<Vector>& b, std::vector<Vector>& x,
@@ -27,13 +26,11 @@ class CoupledSolver {
     Eigen::Index first = 0, size = 1;
     SparseMatrix real;  ///< M + t K
     Vector inverse_diagonal;
-    std::optional<Sharpening> sharpening;
     ComplexMatrix complex;  ///< the same for a complex t, of a pair
     ComplexVector complex_inverse_diagonal;
     std::complex<double> second;  ///< y_1 + second y_2 is the unknown of the complex system
   };
-  Block make_block(const SparseMatrix& mass, const SparseMatrix& stiffness, const VertexBasis& basis,
-                   Eigen::Index first) const;
+  Block make_block(const SparseMatrix& mass, const SparseMatrix& stiffness, Eigen::Index first) const;
   SolveReport solve_real(const Block& block, const Vector& f, Vector& y, const ConjugateGradientOptions& options);
   SolveReport solve_pair(const Block& block, const Vector& f1, const Vector& f2, Vector& y1, Vector& y2,
                          const ConjugateGradientOptions& options);

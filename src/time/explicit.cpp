@@ -21,7 +21,7 @@ class ForwardEuler final : public Stepper {
       next_[i] = state.now[i];
       if (species.algebraic) continue;
       StepMatrix& mass = species.mass ? own_mass_[i] : mass_;
-      mass.update(system, i, 1, 0);
+      mass.update(mass_of(system, i), 1, *species.stiffness, 0, species.revision, system.held);
       rhs_ = system.sampling->transposed * Vector(weight_of(system, i).cwiseProduct(rates_[i]));
       if (species.coupled) {
         subtract_fluxes(system, state, i);

@@ -143,7 +143,7 @@ void Sbdf2::solve_coupled(const System& system, const State& state, const Scheme
     first_guess(system, state, i, dt);
     x.push_back(std::move(next_[i]));
   }
-  coupled_.update(*system.mass, *c.stiffness, flux, vertex_basis(system));
+  coupled_.update(*system.mass, *c.stiffness, flux);
   note_solve(coupled_.solve(*c.stiffness, b, x, {.tolerance = request.solver_tolerance}), coupled_names(system),
              report);
   for (std::size_t k = 0; k < c.index.size(); ++k) next_[c.index[k]] = std::move(x[k]);
@@ -164,7 +164,8 @@ StepReport Sbdf2::step(const System& system, State& state, const StepRequest& re
   for (std::size_t i = 0; i < system.species.size(); ++i) {
     const Species& species = system.species[i];
     if (species.coupled) continue;
-    matrices_[i].update(system, i, s.alpha, dt * species.diffusion);
+    matrices_[i].update(mass_of(system, i), s.alpha, *species.stiffness, dt * species.diffusion, species.revision,
+                        system.held);
     right_hand_side(system, s, i);
     first_guess(system, state, i, dt);
     matrices_[i].solve(rhs_, next_[i], species.name, request.solver_tolerance, report);

@@ -44,7 +44,7 @@ SolveReport solve_algebraic(const System& system, double t, std::vector<Vector>&
     }
   }
   CoupledSolver solver;
-  solver.update(*system.mass, *c.stiffness, c.diffusion(algebraic, algebraic), vertex_basis(system));
+  solver.update(*system.mass, *c.stiffness, c.diffusion(algebraic, algebraic));
   const SolveReport report = solver.solve(*c.stiffness, rhs, values, {.tolerance = tolerance});
   for (std::size_t a = 0; a < algebraic.size(); ++a)
     coefficients[c.index[static_cast<std::size_t>(algebraic[a])]] = std::move(values[a]);
@@ -98,26 +98,24 @@ void advance(const System& system, State& state, double dt, std::vector<Vector>&
   report.accepted = true;
 }
 
-void StepMatrix::update(const System& system, std::size_t number, double alpha, double beta) {
-  const Species& species = system.species[number];
-  const SparseMatrix& mass = mass_of(system, number);
-  if (alpha == alpha_ && beta == beta_ && species.revision == revision_ && matrix_.pattern == mass.pattern) return;
+void StepMatrix::update(const SparseMatrix& mass, double alpha, const SparseMatrix& stiffness, double beta,
+                        std::uint64_t revision, const std::vector<char>* held) {
+  if (alpha == alpha_ && beta == beta_ && revision == revision_ && matrix_.pattern == mass.pattern) return;
+  combine(alpha, mass, beta, stiffness, matrix_);
+  inverse_diagonal_ = diagonal(matrix_).cwiseInverse();
+  // Vertices without triangles have empty rows.
+  for (double& d : inverse_diagonal_)
+    if (!std::isfinite(d)) d = 1;
+  if (held)
+    for (Eigen::Index i = 0; i < inverse_diagonal_.size(); ++i)
+      if ((*held)[static_cast<std::size_t>(i)]) inverse_diagonal_[i] = 0;
   alpha_ = alpha;
   beta_ = beta;
-  revision_ = species.revision;
-  combine(alpha, mass, beta, *species.stiffness, matrix_);
-  const Vector d = diagonal(matrix_);
-  sharpening_ = make_sharpening(vertex_basis(system), alpha * diagonal(mass), d);
-  // Vertices without triangles have empty rows, and their unknowns no equation.
-  inverse_diagonal_ = (d.array() > 0).select(d.cwiseInverse(), 1);
-  if (!system.held) return;
-  for (Eigen::Index i = 0; i < inverse_diagonal_.size(); ++i)
-    if ((*system.held)[static_cast<std::size_t>(i)]) inverse_diagonal_[i] = 0;
+  revision_ = revision;
 }
 
 void StepMatrix::solve(const Vector& b, Vector& x, const std::string& species, double tolerance, StepReport& report) {
-  const ConjugateGradientOptions options{.tolerance = tolerance, .sharpening = sharpening_ ? &*sharpening_ : nullptr};
-  note_solve(solver_.solve(matrix_, inverse_diagonal_, b, x, options), species, report);
+  note_solve(solver_.solve(matrix_, inverse_diagonal_, b, x, {.tolerance = tolerance}), species, report);
 }
 
 void note_solve(const SolveReport& solve, const std::string& names, StepReport& report) {

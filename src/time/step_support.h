@@ -18,18 +18,18 @@ SolveReport solve_algebraic(const System& system, double t, std::vector<Vector>&
 /// Moves the state to `next` (applying the clamps) unless it is not finite, and fills in change, minimum and maximum.
 void advance(const System& system, State& state, double dt, std::vector<Vector>& next, StepReport& report);
 
-/// alpha M_i + beta K_i for one species, kept while alpha, beta and the revision of the matrices stay the same. Held
-/// unknowns keep the value of the first guess.
+/// alpha M + beta K_i for one species, kept while alpha, beta and the revision of the matrices stay the same. Where
+/// `held` is set, unknowns keep the value of the first guess.
 class StepMatrix {
  public:
-  void update(const System& system, std::size_t species, double alpha, double beta);
+  void update(const SparseMatrix& mass, double alpha, const SparseMatrix& stiffness, double beta,
+              std::uint64_t revision = 0, const std::vector<char>* held = nullptr);
   /// Solves for one right-hand side; x holds the first guess. Updates iterations, residual and failure of the report.
   void solve(const Vector& b, Vector& x, const std::string& species, double tolerance, StepReport& report);
 
  private:
   SparseMatrix matrix_;
   Vector inverse_diagonal_;
-  std::optional<Sharpening> sharpening_;
   double alpha_ = 0, beta_ = -1;
   std::uint64_t revision_ = 0;
   ConjugateGradient solver_;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "discretise/sampling.h"
-#include "linalg/sharpening.h"
+#include "linalg/sparse.h"
 
 namespace pelage {
 
@@ -71,14 +71,6 @@ inline const SparseMatrix& mass_of(const System& system, std::size_t species) {
 inline const Vector& weight_of(const System& system, std::size_t species) {
   const Vector* own = system.species[species].weight;
   return own ? *own : system.sampling->weight;
-}
-
-/// What preconditioners use where the samples are at the vertices and differ from the coefficients.
-inline VertexBasis vertex_basis(const System& system) {
-  const Sampling& s = *system.sampling;
-  const bool at_vertices = s.values.rows() == system.mass->rows();
-  if (!at_vertices || s.values.value.size() == static_cast<std::size_t>(s.values.rows())) return {};
-  return {&s.values, &s.transposed};
 }
 
 /// The only thing that a run changes; what a checkpoint stores.

@@ -38,24 +38,6 @@ inline SparseMatrix random_matrix(std::int32_t rows, std::int32_t columns, doubl
   return a;
 }
 
-/// The entries that are not 0.
-inline SparseMatrix sparse(const Eigen::MatrixXd& d) {
-  auto pattern = std::make_shared<SparsePattern>();
-  pattern->rows = static_cast<std::int32_t>(d.rows());
-  pattern->columns = static_cast<std::int32_t>(d.cols());
-  SparseMatrix a;
-  for (std::int32_t r = 0; r < pattern->rows; ++r) {
-    for (std::int32_t c = 0; c < pattern->columns; ++c)
-      if (d(r, c) != 0) {
-        pattern->column.push_back(c);
-        a.value.push_back(d(r, c));
-      }
-    pattern->start.push_back(static_cast<std::int64_t>(pattern->column.size()));
-  }
-  a.pattern = std::move(pattern);
-  return a;
-}
-
 inline Vector random_vector(Eigen::Index n, std::uint64_t seed) {
   Vector x(n);
   for (Eigen::Index i = 0; i < n; ++i) x[i] = uniform(seed, static_cast<std::uint64_t>(i)) - 0.5;
