@@ -115,7 +115,7 @@ void warn_of_valences(const std::vector<GalleryShape>& shapes) {
   for (const GalleryShape& shape : shapes) {
     Recipe plain;
     if (const std::string fitted = fit_method(plain, shape.mesh); !fitted.empty())
-      std::fprintf(stderr, "pelage: warning: %s: %s\n", shape.name.c_str(), fitted.c_str());
+      std::fprintf(stderr, "pelage: warning: %s\n", one_line(shape.name + ": " + fitted).c_str());
   }
 }
 

@@ -78,12 +78,11 @@ double regression_slope(const std::vector<char>& fixed, const std::vector<double
 }
 
 /// The mean squared way that noise alone makes: the median over the free vertices, or what the quietest tenth of them
-/// lets expect, if that is less, as on coarse shapes with details nearly everywhere.
+/// lets expect, if that is less, as on coarse shapes with details nearly everywhere. Some vertices must be free.
 double squared_way_of_noise(const std::vector<char>& fixed, const std::vector<double>& mean) {
   std::vector<double> all;
   for (std::size_t v = 0; v < mean.size(); ++v)
     if (!fixed[v]) all.push_back(mean[v]);
-  if (all.empty()) return 0;
   return std::min(quantile(all, 0.5), quantile(all, quiet_quantile) / quiet_share);
 }
 
