@@ -8,13 +8,14 @@
 #include <map>
 
 #include "base/parallel.h"
-#include "catalog/resolve.h"
+#include "catalog/bind.h"
 #include "io/read_shape.h"
 #include "io/write_mesh.h"
 #include "look/dress.h"
 #include "look/picture.h"
 #include "run/run.h"
 #include "shape/generators.h"
+#include "support/discretisations.h"
 
 namespace pelage {
 namespace {
@@ -34,7 +35,7 @@ Program turing_program(std::int64_t vertices) {
   Recipe recipe;
   const double edge = std::sqrt(4 * 3.14159265358979 / static_cast<double>(vertices) * 2 / std::sqrt(3.0));
   recipe.stages[0].size = Given<Length>{{10 * edge, false}, {}};
-  return resolve(recipe, sphere(vertices)).front();
+  return make_program(recipe, sphere(vertices)).front();
 }
 
 void read_and_check(benchmark::State& state, const char* extension) {

@@ -55,9 +55,9 @@ Analysis make_analysis(Model model) {
   if (!a.wavelength || a.states.empty()) return a;
   const double resolution = a.model.source().suggestions.resolution_or_default();
   const double k2 = largest_k2_of_coarsest_mesh(*a.wavelength, resolution);
-  for (const std::string& stepper : stepper_names())
-    if (stepper != "paper" || a.model.coupled().empty())
-      a.limits.push_back({stepper, largest_stable_step(a.model, stepper, k2)});
+  for (const StepperKind* stepper : stepper_kinds())
+    if (stepper->couples || a.model.coupled().empty())
+      a.limits.push_back({std::string(stepper->name), largest_stable_step(a.model, *stepper, k2)});
   return a;
 }
 

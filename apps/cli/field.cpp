@@ -7,6 +7,7 @@
 #include <memory>
 #include <sstream>
 
+#include "base/box.h"
 #include "command.h"
 #include "direction/guides.h"
 #include "direction/hatching.h"
@@ -17,7 +18,7 @@
 #include "look/picture.h"
 #include "pelage/error.h"
 #include "progress_bar.h"
-#include "run/anisotropy.h"
+#include "run/directions.h"
 #include "run/program.h"
 #include "text.h"
 #include "usage.h"
@@ -108,7 +109,8 @@ void draw(const FieldCommand& o, const TriangleMesh& mesh, const Connection& c, 
   options.azimuth = o.azimuth;
   options.elevation = o.elevation;
   options.up = o.up_z ? UpAxis::z : UpAxis::y;
-  write_png(render(hatched(mesh, c, field, {o.spacing * bounding_diagonal(mesh)}), options, progress), o.picture);
+  write_png(render(hatched(mesh, c, field, {o.spacing * box_of(mesh.points).diagonal()}), options, progress),
+            o.picture);
 }
 
 void report(const FieldCommand& o, const TriangleMesh& mesh, const DirectionField& field) {
@@ -138,7 +140,7 @@ void run_field(const FieldCommand& o) {
   ProgressBar bar(o.quiet || o.json ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
   const TriangleMesh mesh = read_shape(o.shape).mesh;
   const Connection c = make_connection(make_topology(mesh.points.size(), mesh.triangles), mesh.points);
-  const double diagonal = bounding_diagonal(mesh);
+  const double diagonal = box_of(mesh.points).diagonal();
   const DirectionField field = direction_field(c, o.n, find_guides(wish_of(o, diagonal), c, mesh.points, diagonal));
   for (const std::string& path : o.outputs) write_mesh(with_field(mesh, c, field), path);
   if (!o.picture.empty()) draw(o, mesh, c, field, bar.progress());

@@ -8,7 +8,7 @@
 
 #include "base/job_progress.h"
 #include "base/parallel.h"
-#include "catalog/resolve.h"
+#include "catalog/bind.h"
 #include "command.h"
 #include "gallery_page.h"
 #include "gallery_subjects.h"
@@ -57,20 +57,6 @@ std::string file_name(const GallerySubject& subject, const std::string& shape) {
   return name + "-" + shape + ".png";
 }
 
-/// One recipe on one shape; an empty image when `report` asks to stop.
-Image make_picture(Recipe recipe, const TriangleMesh& shape, int size, const std::function<bool(double)>& report) {
-  fit_method(recipe, shape);
-  Run run(resolve(recipe, shape));
-  while (!run.done()) {
-    if (!report(share_of_run * run.fraction())) return {};
-    run.advance(steps_per_slice);
-  }
-  if (run.summary().status == RunStatus::failed) throw Error(Fault::numerics, run.summary().message);
-  PictureOptions options;
-  options.width = options.height = size;
-  return render(dress(run.fields(), recipe.look), options);
-}
-
 /// A picture to be made, and where what came of it is noted.
 struct Job {
   const GallerySubject* subject;
@@ -78,15 +64,32 @@ struct Job {
   GalleryPicture* picture;
 };
 
+/// One recipe on one shape; an empty image when `report` asks to stop.
+Image make_picture(const Job& job, int size, const std::function<bool(double)>& report) {
+  const Progress progress = [&](std::string_view, double) { return report(0); };
+  const Recipe& recipe = job.subject->recipe;
+  Run run(make_program(recipe, job.shape->mesh), progress);
+  while (!run.done()) {
+    if (!report(share_of_run * run.fraction())) return {};
+    run.advance(steps_per_slice);
+  }
+  if (run.summary().status == RunStatus::failed) throw Error(Fault::numerics, run.summary().message);
+  if (run.uniform()) job.picture->uniform = run.why_uniform();
+  PictureOptions options;
+  options.width = options.height = size;
+  return render(dress(run.fields(), recipe.look), options);
+}
+
 void do_job(const Job& job, const GalleryOptions& options, const std::function<bool(double)>& report) {
   try {
-    const Image image = make_picture(job.subject->recipe, job.shape->mesh, options.picture_size, report);
+    const Image image = make_picture(job, options.picture_size, report);
     if (image.rgb.empty()) return;
     write_png(with_caption(image, short_name(*job.subject) + ", " + job.shape->name, job.subject->title),
               (std::filesystem::path(options.folder) / job.picture->file).string());
     report(1);
   } catch (const Error& error) {
     if (error.fault() == Fault::output) throw;
+    if (error.fault() == Fault::cancelled) return;
     job.picture->failure = one_line(error.what());
   }
 }
@@ -97,7 +100,7 @@ std::vector<GalleryEntry> empty_entries(const std::vector<GallerySubject>& subje
   for (const GallerySubject& subject : subjects) {
     entries.push_back({subject.name, subject.title, subject.summary, subject.cite, {}});
     for (const GalleryShape& s : shapes)
-      entries.back().pictures.push_back({file_name(subject, s.name), subject.name + " on the " + s.name, ""});
+      entries.back().pictures.push_back({file_name(subject, s.name), subject.name + " on the " + s.name, "", ""});
   }
   return entries;
 }
@@ -111,12 +114,16 @@ void require_distinct_files(const std::vector<GalleryEntry>& entries) {
                                       "; the shapes and the names need file names of their own");
 }
 
+void warn(const std::string& text) { std::fprintf(stderr, "pelage: warning: %s\n", one_line(text).c_str()); }
+
 void warn_of_valences(const std::vector<GalleryShape>& shapes) {
-  for (const GalleryShape& shape : shapes) {
-    Recipe plain;
-    if (const std::string fitted = fit_method(plain, shape.mesh); !fitted.empty())
-      std::fprintf(stderr, "pelage: warning: %s\n", one_line(shape.name + ": " + fitted).c_str());
-  }
+  for (const GalleryShape& shape : shapes)
+    for (const std::string& text : make_program({}, shape.mesh).warnings) warn(shape.name + ": " + text);
+}
+
+void warn_of_uniform_pictures(const std::vector<Job>& jobs) {
+  for (const Job& job : jobs)
+    if (!job.picture->uniform.empty()) warn(job.picture->caption + " is uniform, " + job.picture->uniform);
 }
 
 std::vector<Job> jobs_for(const std::vector<GallerySubject>& subjects, const std::vector<GalleryShape>& shapes,
@@ -164,6 +171,7 @@ Json to_json(const std::vector<Job>& jobs, bool recipes, const std::string& inde
     pictures.push_back({{recipes ? "recipe" : "model", job.subject->name},
                         {"shape", job.shape->name},
                         {"file", job.picture->file},
+                        {"uniform", !job.picture->uniform.empty()},
                         {"failure", job.picture->failure.empty() ? Json(nullptr) : Json(job.picture->failure)}});
   return {{"index", index}, {"pictures", pictures}};
 }
@@ -189,6 +197,7 @@ void gallery(const GalleryOptions& options) {
   const std::string index = (std::filesystem::path(options.folder) / "index.html").string();
   write_file(index, gallery_page(options.recipes ? "Recipes" : "Models", entries, options.picture_size));
   bar.clear();
+  warn_of_uniform_pictures(jobs);
   report_failures(jobs, options.folder);
   if (options.json)
     print_json(to_json(jobs, options.recipes, index));

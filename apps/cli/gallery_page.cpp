@@ -62,7 +62,8 @@ std::string figure(const GalleryPicture& picture, int size) {
   if (!picture.failure.empty()) return paragraph(picture.caption + ": " + picture.failure, "failure");
   const std::string file = escaped(picture.file);
   return "<figure><a href=\"" + file + "\"><img src=\"" + file + "\" width=\"" + std::to_string(size) +
-         "\" loading=\"lazy\" alt=\"" + escaped(picture.caption) + "\"></a></figure>\n";
+         "\" loading=\"lazy\" alt=\"" + escaped(picture.caption) + "\"></a>" +
+         (picture.uniform.empty() ? "" : paragraph("uniform: " + picture.uniform, "failure")) + "</figure>\n";
 }
 
 std::string section(const GalleryEntry& entry, int size) {

@@ -10,6 +10,7 @@ struct GalleryPicture {
   std::string file;     ///< in the folder of the page
   std::string caption;  ///< what it shows
   std::string failure;  ///< instead of the picture, if not empty
+  std::string uniform;  ///< why it shows no pattern, if it shows none
 };
 
 /// A model, a variant or a recipe.

@@ -3,7 +3,8 @@
 #include <filesystem>
 
 #include "catalog/models.h"
-#include "catalog/resolve.h"
+#include "catalog/plan.h"
+#include "catalog/recipes.h"
 #include "io/read_shape.h"
 
 namespace pelage {
@@ -45,7 +46,7 @@ std::vector<GallerySubject> recipe_subjects(const std::vector<std::string>& name
   std::vector<GallerySubject> subjects;
   for (const std::string& name : names.empty() ? recipe_names() : names) {
     Recipe recipe = load_recipe(name);
-    check_names(recipe);
+    plan(recipe);
     subjects.push_back({name, recipe.summary.empty() ? recipe.name : recipe.summary, "", "", std::move(recipe)});
   }
   return subjects;

@@ -5,7 +5,8 @@
 #include <memory>
 
 #include "base/parallel.h"
-#include "catalog/resolve.h"
+#include "catalog/bind.h"
+#include "catalog/images.h"
 #include "command.h"
 #include "grow_options.h"
 #include "grow_report.h"
@@ -58,7 +59,7 @@ void restore(Run& run, const std::string& path) {
 }
 
 [[noreturn]] void interrupted(const Run& run, const std::string& checkpoint) {
-  const std::string stage = run.stages().size() > 1 ? "stage " + run.program().name + ", " : "";
+  const std::string stage = run.program().stages.size() > 1 ? "stage " + run.stage_program().name + ", " : "";
   const std::string place = "interrupted at " + stage + std::to_string(run.summary().steps) + " steps, time " +
                             number(run.summary().time) + "; no mesh or picture was written";
   if (checkpoint.empty()) throw Error(Fault::cancelled, place + "; with --checkpoint FILE it could go on from here");
@@ -71,11 +72,20 @@ std::int64_t next_steps(std::int64_t steps, double seconds) {
   return std::clamp(static_cast<std::int64_t>(wanted), std::int64_t{1}, 2 * steps);
 }
 
+/// Where Ctrl-C comes while a stage begins, the run stays at the end of the one before.
+void advance(Run& run, std::int64_t steps) {
+  try {
+    run.advance(steps);
+  } catch (const Error& error) {
+    if (error.fault() != Fault::cancelled) throw;
+  }
+}
+
 void grow_to_the_end(Run& run, const GrowOptions& options, const Progress& progress, GrowReport& report) {
   std::int64_t steps = 1;
   while (!run.done() && progress("growing", run.fraction())) {
     const Stopwatch watch;
-    run.advance(steps);
+    advance(run, steps);
     steps = next_steps(steps, watch.seconds());
     report.warnings(run);
   }
@@ -116,11 +126,11 @@ GrowReport::Form form_of(const GrowOptions& options) {
 }
 
 void grow(const GrowOptions& options) {
-  Recipe recipe = make_recipe(options);
+  const Recipe recipe = make_recipe(options);
   check_outputs(options, recipe.shape);
   if (!options.panels.empty() && !recipe.motion.fair)
     throw Error(Fault::usage, "--panels shows what --fair does; give it too");
-  check_names(recipe);
+  const Plan planned = plan(recipe);
   catch_interrupts();
   const ThreadLimit threads(options.threads.value_or(0));
   ProgressBar bar(options.quiet ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
@@ -129,20 +139,19 @@ void grow(const GrowOptions& options) {
   const Stopwatch total;
 
   progress("reading " + recipe.shape, 0);
+  std::vector<Texture> images = read_images(recipe.textures);
   ShapeFile file = read_shape(recipe.shape);
   report.shape(recipe.shape, file);
-  if (!options.method)
-    if (const std::string fitted = fit_method(recipe, file.mesh); !fitted.empty()) report.warning(fitted);
 
   Run run = interruptible("before the growth began; nothing was written",
-                          [&] { return Run(resolve(recipe, std::move(file.mesh)), progress); });
+                          [&] { return Run(bind_plan(planned, std::move(file.mesh), std::move(images)), progress); });
   restore(run, options.resume);
   report.warnings(run);
   report.pattern(run);
   const Stopwatch growth;
   grow_to_the_end(run, options, progress, report);
   report.growth(run, growth.seconds());
-  if (run.surface()) report.surface(*run.surface());
+  if (run.world().surface()) report.surface(*run.world().surface());
   if (!options.checkpoint.empty()) report.file(options.checkpoint);
 
   progress("colouring", 0);
@@ -151,7 +160,7 @@ void grow(const GrowOptions& options) {
   const PictureOptions picture = picture_options(options);
   write_picture(options.picture, progress, report, [&](const Progress& p) { return render(coat, picture, p); });
   write_picture(options.panels, progress, report,
-                [&](const Progress& p) { return four_panels(recipe, run.program().shape, coat, picture, p); });
+                [&](const Progress& p) { return four_panels(recipe, *run.program().shape, coat, picture, p); });
   report.end(total.seconds());
 }
 

@@ -6,7 +6,8 @@
 
 #include "base/suggest.h"
 #include "catalog/models.h"
-#include "catalog/resolve.h"
+#include "catalog/plan.h"
+#include "catalog/recipes.h"
 #include "fair/fair.h"
 #include "io/atomic_file.h"
 #include "io/png_writer.h"
@@ -29,6 +30,20 @@ constexpr int most_threads = 1024;
 constexpr int largest_picture = 32768;
 
 std::string choices(const std::vector<std::string>& names) { return ": " + join_names(names); }
+
+std::vector<std::string> stepper_names() {
+  std::vector<std::string> names;
+  for (const StepperKind* kind : stepper_kinds()) names.emplace_back(kind->name);
+  return names;
+}
+
+/// "loop (smooth, default) or linear (flat, faster)".
+std::string method_choices() {
+  std::string text;
+  for (const Method* m : methods())
+    text += (text.empty() ? "" : " or ") + std::string(m->name) + " (" + std::string(m->summary) + ")";
+  return text;
+}
 
 void add_pattern_options(CLI::App& app, GrowOptions& o) {
   const std::string group = "Pattern";
@@ -71,9 +86,7 @@ void add_pattern_options(CLI::App& app, GrowOptions& o) {
 
 void add_time_options(CLI::App& app, GrowOptions& o) {
   const std::string group = "Computation";
-  app.add_option("--method", o.method, "Finite elements: loop (smooth, default) or linear (flat, faster)")
-      ->type_name("NAME")
-      ->group(group);
+  app.add_option("--method", o.method, "Finite elements: " + method_choices())->type_name("NAME")->group(group);
   app.add_option("--stepper", o.stepper, "Time stepper (default: sbdf2)" + choices(stepper_names()))
       ->type_name("NAME")
       ->group(group);
@@ -267,7 +280,7 @@ void apply(const GrowOptions& o, std::vector<Stage>& stages) {
   for (const std::string& text : o.settings) apply_setting(text, stages);
   for (const std::string& text : o.maps) apply_map(text, stages);
   for (Stage& stage : stages) {
-    override(o.method, stage.method);
+    if (o.method) stage.method = {*o.method, {"--method"}};
     override(o.stepper, stage.stepper);
     override(o.step, stage.step);
     override(o.until, stage.until);

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <limits>
 
+#include "base/box.h"
+#include "shape/refine.h"
 #include "text.h"
 
 namespace pelage {
@@ -43,10 +45,10 @@ std::string status_name(RunStatus status) {
   return "running";
 }
 
-std::string refinement(int levels, bool loop) {
+std::string refinement(int levels, bool smooth) {
   if (levels == 0) return "as it is";
   return "every triangle split into " + std::to_string(1L << (2 * levels)) +
-         (loop ? " by Loop's rules" : " at midpoints");
+         (smooth ? " by Loop's rules" : " at midpoints");
 }
 
 }  // namespace
@@ -79,14 +81,14 @@ void GrowReport::shape(const std::string& name, const ShapeFile& file) {
 }
 
 void GrowReport::pattern(const Run& run) {
-  const Program& first = run.program();
-  const Topology& topology = run.operators().discretisation().topology;
-  const double diagonal = bounding_diagonal(first.shape);
+  const World& world = run.world();
+  const Topology& topology = world.hierarchy()->topology(world.levels());
+  const double diagonal = box_of(world.points()).diagonal();
   double finest = std::numeric_limits<double>::infinity();
   json_["stages"] = Json::array();
-  for (const Program& p : run.stages()) {
+  for (const StageProgram& p : run.program().stages) {
     finest = std::min(finest, p.size);
-    const std::string name = run.stages().size() > 1 ? p.name + ": " : "";
+    const std::string name = run.program().stages.size() > 1 ? p.name + ": " : "";
     line("pattern", name + p.model_name + " at a wavelength of " + number(p.size) + " world units (" +
                         brief(p.size / diagonal) + " of the diagonal)");
     Json parameters = Json::object();
@@ -97,14 +99,15 @@ void GrowReport::pattern(const Run& run) {
                                {"size", p.size},
                                {"size_of_diagonal", p.size / diagonal},
                                {"length_unit", p.length_unit},
-                               {"stepper", p.stepper},
+                               {"stepper", p.stepper->name},
                                {"seed", p.seed}});
   }
-  const double density = finest / prevailing_edge(topology.triangles, run.operators().control());
-  line("mesh", refinement(run.operators().levels(), first.method == "loop") + ": " +
+  const Method& method = *run.program().method;
+  const double density = finest / prevailing_edge(topology.triangles, world.space().control());
+  line("mesh", refinement(world.levels(), method.limit_masks != nullptr) + ": " +
                    counted(topology.vertex_count, "vertex") + ", " + brief(density) + " per wavelength");
-  json_["method"] = first.method;
-  json_["refinements"] = run.operators().levels();
+  json_["method"] = method.name;
+  json_["refinements"] = world.levels();
   json_["control_vertices"] = topology.vertex_count;
   json_["vertices_per_wavelength"] = density;
 }
@@ -124,13 +127,16 @@ void GrowReport::growth(const Run& run, double seconds) {
   for (std::size_t k = 0; k < run.finished().size(); ++k) grown(run, k, run.finished()[k].summary);
   grown(run, run.stage(), run.summary());
   line("growth", "in " + duration(seconds));
+  json_["uniform"] = run.uniform();
+  if (run.uniform()) warning("the result is uniform, there is no pattern: " + run.why_uniform());
   json_["growth_seconds"] = seconds;
 }
 
 void GrowReport::grown(const Run& run, std::size_t stage, const RunSummary& s) {
-  const Program& p = run.stages()[stage];
-  line("grown", (run.stages().size() > 1 ? p.name + ": " : "") + counted(static_cast<std::size_t>(s.steps), "step") +
-                    " of " + p.stepper + " to time " + number(s.time) + "; " + stop_reason(s.status));
+  const StageProgram& p = run.program().stages[stage];
+  line("grown", (run.program().stages.size() > 1 ? p.name + ": " : "") +
+                    counted(static_cast<std::size_t>(s.steps), "step") + " of " + std::string(p.stepper->name) +
+                    " to time " + number(s.time) + "; " + stop_reason(s.status));
   json_["stages"][stage]["growth"] = {{"status", status_name(s.status)},
                                       {"steps", s.steps},
                                       {"time", s.time},

@@ -1,6 +1,6 @@
 #include "panels.h"
 
-#include "catalog/resolve.h"
+#include "catalog/bind.h"
 #include "fair/fair.h"
 #include "look/canvas.h"
 #include "look/caption.h"
@@ -19,7 +19,7 @@ TriangleMesh bare(const TriangleMesh& mesh) { return {mesh.points, mesh.triangle
 
 TriangleMesh coat_at_rest(Recipe recipe, const TriangleMesh& noisy, const Progress& progress) {
   recipe.motion = {};
-  Run run(resolve(recipe, noisy), progress);
+  Run run(make_program(recipe, noisy), progress);
   while (!run.done()) {
     if (progress && !progress("growing on the noisy shape", run.fraction())) throw Error(Fault::cancelled, "cancelled");
     run.advance(steps_per_slice);

@@ -1,10 +1,11 @@
 // pelage recipes: the coats that come with the program.
 
+#include "catalog/recipes.h"
+
 #include <cstdio>
 #include <memory>
 
 #include "base/suggest.h"
-#include "catalog/resolve.h"
 #include "command.h"
 #include "table.h"
 

@@ -44,7 +44,6 @@ SpeciesSource species(const std::string& name, const Value& table) {
           .c2 = optional_formula(table, "C2"),
           .c3 = optional_formula(table, "C3"),
           .initial = optional_formula(table, "initial"),
-          .pin = {},  // of stages only
           .lower = optional_formula(table, "min"),
           .upper = optional_formula(table, "max")};
 }

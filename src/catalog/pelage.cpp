@@ -1,6 +1,7 @@
 #include "pelage/pelage.h"
 
-#include "catalog/resolve.h"
+#include "catalog/bind.h"
+#include "catalog/recipes.h"
 #include "io/read_shape.h"
 #include "io/write_mesh.h"
 #include "look/dress.h"
@@ -18,7 +19,7 @@ TriangleMesh load_shape(const std::string& path_or_builtin) { return read_shape(
 Recipe recipe(const std::string& name_or_path) { return load_recipe(name_or_path); }
 
 Growth::Growth(TriangleMesh shape, const Recipe& recipe)
-    : parts_(std::make_unique<Parts>(Parts{Run(resolve(recipe, std::move(shape))), recipe.look})) {}
+    : parts_(std::make_unique<Parts>(Parts{Run(make_program(recipe, std::move(shape))), recipe.look})) {}
 
 Growth::~Growth() = default;
 Growth::Growth(Growth&&) noexcept = default;

@@ -158,9 +158,9 @@ class Solver {
   }
 
   void solve(const SparseMatrix& a, const Vector& b, Vector& z, double tolerance) {
-    ConjugateGradient cg;
-    const SolveReport report =
-        cg.solve(a, diagonal(a).cwiseInverse(), b, z, {.tolerance = tolerance, .max_iterations = 100000});
+    ConjugateGradientWork<Vector> work;
+    const SolveReport report = conjugate_gradient(a, Jacobi(diagonal(a)), b, z, nullptr,
+                                                  {.tolerance = tolerance, .max_iterations = 100000}, work);
     iterations_ += report.iterations;
     if (!report.converged)
       throw Error(Fault::numerics, "the direction field was not found: the solve did not converge");

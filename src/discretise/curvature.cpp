@@ -57,7 +57,7 @@ Matrix3d matrix(const Tensor& t) {
 
 std::vector<Tensor> quadrature_curvature(const Discretisation& d, const std::vector<Point>& control) {
   const bool flat = d.classes.empty() || d.classes[0].dvv.size() == 0;
-  const std::vector<Point> normals = flat ? vertex_normals(d.topology.triangles, control) : std::vector<Point>{};
+  const std::vector<Point> normals = flat ? vertex_normals(d.topology->triangles, control) : std::vector<Point>{};
   std::vector<Tensor> curvature(at(d.first_point.back()), Tensor{});
   parallel_for(d.elements(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
@@ -81,7 +81,7 @@ std::vector<Tensor> vertex_curvature(const Discretisation& d, const std::vector<
   std::vector<double> area(at(d.unknowns), 0.0);
   for (std::size_t e = 0; e < d.elements(); ++e)
     for (auto q = at(d.first_point[e]); q < at(d.first_point[e + 1]); ++q)
-      for (Index v : d.topology.triangles[e]) {
+      for (Index v : d.topology->triangles[e]) {
         for (std::size_t k = 0; k < 6; ++k) mean[at(v)][k] += weight[q] * inside[q][k];
         area[at(v)] += weight[q];
       }

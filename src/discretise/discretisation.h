@@ -3,7 +3,7 @@
 // for every method (assembly.h), and nothing else of the program knows which method it is.
 
 #include <Eigen/Core>
-#include <string>
+#include <memory>
 #include <vector>
 
 #include "linalg/sparse.h"
@@ -27,9 +27,9 @@ struct ElementClass {
 /// Coefficients are the values at control vertices; samples are the values of the function at the (limit) positions of
 /// the vertices. They coincide for linear elements only: sample = values * coefficients.
 struct Discretisation {
-  std::string method;  ///< "loop" or "linear"
   Index unknowns = 0;  ///< number of basis functions = number of control vertices
-  Topology topology;
+  bool nodal = false;  ///< coefficients are the samples at the vertices
+  std::shared_ptr<const Topology> topology;
   std::vector<ElementClass> classes;
   std::vector<Index> element_class;          ///< per triangle
   std::vector<std::int64_t> first_function;  ///< per triangle + 1: where its basis functions begin in `function`
@@ -49,14 +49,13 @@ struct LoopQuadrature {
 
 /// Loop finite elements (Cirak, Ortiz, Schroeder 2000). Throws Error(Fault::input) when a valence is above
 /// max_loop_valence.
+Discretisation loop_discretisation(std::shared_ptr<const Topology> topology, const LoopQuadrature& quadrature = {});
 Discretisation loop_discretisation(Topology topology, const LoopQuadrature& quadrature = {});
 
 /// Linear finite elements (the cotangent method) on the flat triangles: 3-point quadrature at the edge midpoints, exact
 /// for quadratics, hence for the mass matrix.
+Discretisation linear_discretisation(std::shared_ptr<const Topology> topology);
 Discretisation linear_discretisation(Topology topology);
-
-/// By name, "loop" or "linear"; Error(Fault::usage) otherwise.
-Discretisation make_discretisation(const std::string& method, Topology topology);
 
 /// A vertex of valence n couples n^2 pairs of unknowns: above this the matrices lose their sparsity.
 inline constexpr Index max_loop_valence = 200;

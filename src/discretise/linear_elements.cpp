@@ -1,4 +1,7 @@
-#include "discretise/discretisation.h"
+#include <limits>
+
+#include "discretise/method.h"
+#include "discretise/surface_space.h"
 
 namespace pelage {
 
@@ -30,10 +33,11 @@ SparseMatrix identity(Index n) {
 
 }  // namespace
 
-Discretisation linear_discretisation(Topology topology) {
+Discretisation linear_discretisation(std::shared_ptr<const Topology> shared) {
+  const Topology& topology = *shared;
   Discretisation d;
-  d.method = "linear";
   d.unknowns = topology.vertex_count;
+  d.nodal = true;
   d.classes.push_back(linear_element());
   d.element_class.assign(topology.triangles.size(), 0);
   for (std::size_t f = 0; f <= topology.triangles.size(); ++f) {
@@ -42,8 +46,30 @@ Discretisation linear_discretisation(Topology topology) {
   }
   for (const Triangle& t : topology.triangles) d.function.insert(d.function.end(), t.begin(), t.end());
   d.values = identity(d.unknowns);
-  d.topology = std::move(topology);
+  d.topology = std::move(shared);
   return d;
 }
+
+Discretisation linear_discretisation(Topology topology) {
+  return linear_discretisation(std::make_shared<const Topology>(std::move(topology)));
+}
+
+namespace {
+
+std::shared_ptr<const Space> linear_space(std::shared_ptr<const Topology> topology, std::vector<Point> control) {
+  constexpr int rings_of_a_basis_function = 2;  // one would do, but a mask shall cut the same with every method
+  return surface_space(linear_discretisation(std::move(topology)), std::move(control), rings_of_a_basis_function);
+}
+
+}  // namespace
+
+constexpr Method linear_method = {.name = "linear",
+                                  .summary = "flat, faster",
+                                  .refine = midpoint_refine,
+                                  .limit_masks = nullptr,
+                                  .interpolate = nullptr,
+                                  .make_space = linear_space,
+                                  .max_valence = std::numeric_limits<Index>::max(),
+                                  .safe_anisotropy = 2};
 
 }  // namespace pelage

@@ -3,6 +3,8 @@
 
 #include "discretise/discretisation.h"
 #include "discretise/loop_patch.h"
+#include "discretise/method.h"
+#include "discretise/surface_space.h"
 #include "pelage/error.h"
 #include "shape/loop_subdivision.h"
 
@@ -90,10 +92,10 @@ void refuse_high_valence(const Topology& topology) {
 
 }  // namespace
 
-Discretisation loop_discretisation(Topology topology, const LoopQuadrature& quadrature) {
+Discretisation loop_discretisation(std::shared_ptr<const Topology> shared, const LoopQuadrature& quadrature) {
+  const Topology& topology = *shared;
   refuse_high_valence(topology);
   Discretisation d;
-  d.method = "loop";
   d.unknowns = topology.vertex_count;
   d.first_function.push_back(0);
   d.first_point.push_back(0);
@@ -116,8 +118,36 @@ Discretisation loop_discretisation(Topology topology, const LoopQuadrature& quad
   d.values = to_matrix(masks.position);
   d.tangent1 = to_matrix(masks.tangent1);
   d.tangent2 = to_matrix(masks.tangent2);
-  d.topology = std::move(topology);
+  d.topology = std::move(shared);
   return d;
 }
+
+Discretisation loop_discretisation(Topology topology, const LoopQuadrature& quadrature) {
+  return loop_discretisation(std::make_shared<const Topology>(std::move(topology)), quadrature);
+}
+
+namespace {
+
+/// Basis functions end in the triangles about the neighbours of their vertex.
+constexpr int rings_of_a_basis_function = 2;
+
+std::shared_ptr<const Space> loop_space(std::shared_ptr<const Topology> topology, std::vector<Point> control) {
+  return surface_space(loop_discretisation(std::move(topology)), std::move(control), rings_of_a_basis_function);
+}
+
+std::vector<Point> loop_interpolation(const Topology& topology, const std::vector<Point>& points) {
+  return interpolating_control(loop_discretisation(topology), points);
+}
+
+}  // namespace
+
+constexpr Method loop_method = {.name = "loop",
+                                .summary = "smooth, default",
+                                .refine = loop_refine,
+                                .limit_masks = loop_limit_masks,
+                                .interpolate = loop_interpolation,
+                                .make_space = loop_space,
+                                .max_valence = max_loop_valence,
+                                .safe_anisotropy = 32};
 
 }  // namespace pelage

@@ -37,7 +37,7 @@ Vector area_share(const Discretisation& d, const std::vector<Point>& control) {
   for (std::size_t e = 0; e < d.elements(); ++e) {
     double area = 0;
     for (auto q = d.first_point[e]; q < d.first_point[e + 1]; ++q) area += g.weight[at(q)];
-    for (Index v : d.topology.triangles[e]) share[v] += area / 3;
+    for (Index v : d.topology->triangles[e]) share[v] += area / 3;
   }
   return share;
 }
@@ -53,7 +53,7 @@ Vector vertex_weights(const Discretisation& d, const std::vector<Point>& control
   const Vector ones = Vector::Ones(d.unknowns);
   const Vector integral = mass * ones;
   const Vector share = area_share(d, control);
-  Vector weight = d.method == "linear" ? integral : solve_general(transposed, integral);
+  Vector weight = d.nodal ? integral : solve_general(transposed, integral);
   weight = weight.cwiseMax(0.1 * share);
   weight *= integral.sum() / weight.sum();
   give_isolated_vertices_weight(weight);
@@ -67,7 +67,7 @@ std::vector<Point> limit_positions(const Discretisation& d, const std::vector<Po
 }
 
 std::vector<Point> limit_normals(const Discretisation& d, const std::vector<Point>& control) {
-  if (d.tangent1.value.empty()) return vertex_normals(d.topology.triangles, control);
+  if (d.tangent1.value.empty()) return vertex_normals(d.topology->triangles, control);
   std::vector<Point> normal = apply_to_points(d.tangent1, control);
   const std::vector<Point> other = apply_to_points(d.tangent2, control);
   for (std::size_t i = 0; i < normal.size(); ++i) normal[i] = unit(cross(normal[i], other[i]));

@@ -9,6 +9,9 @@
 
 namespace pelage {
 
+/// Where samples lie: at the (limit) positions of the vertices, or at the quadrature points of the elements.
+enum class SampleRule { vertices, quadrature };
+
 struct Sampling {
   SparseMatrix values;      ///< samples x unknowns
   SparseMatrix transposed;  ///< values'

@@ -85,7 +85,7 @@ class Diffusion {
         assembler_(discretisation_),
         mass_(assembler_.mass(points_)),
         stiffness_(assembler_.stiffness(points_)),
-        edge_(mean_edge(discretisation_.topology, points_)) {}
+        edge_(mean_edge(*discretisation_.topology, points_)) {}
 
   Field isotropic(const Field& f, double tau) const { return solved(f, tau, stiffness_); }
 

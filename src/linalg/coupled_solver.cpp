@@ -9,13 +9,6 @@ namespace pelage {
 
 namespace {
 
-/// Rows without entries (vertices without triangles) have no inverse; their unknowns stay as they are.
-template <class Diagonal>
-Diagonal inverse(Diagonal d) {
-  for (auto& value : d) value = std::abs(value) > 0 ? 1.0 / value : 1.0;
-  return d;
-}
-
 void join(const SolveReport& part, SolveReport& whole) {
   whole.iterations += part.iterations;
   whole.residual = std::max(whole.residual, part.residual);
@@ -25,25 +18,26 @@ void join(const SolveReport& part, SolveReport& whole) {
 
 }  // namespace
 
-void CoupledSolver::update(const SparseMatrix& mass, const SparseMatrix& stiffness, const Eigen::MatrixXd& c) {
-  if (pattern_ == mass.pattern && c_.rows() == c.rows() && c_ == c) return;
-  pattern_ = mass.pattern;
+void CoupledSolver::update(std::shared_ptr<const SparseMatrix> mass, std::shared_ptr<const SparseMatrix> stiffness,
+                           const Eigen::MatrixXd& c) {
+  if (mass_ == mass && stiffness_ == stiffness && c_.rows() == c.rows() && c_ == c) return;
+  mass_ = std::move(mass);
+  stiffness_ = std::move(stiffness);
   c_ = c;
   const Eigen::RealSchur<Eigen::MatrixXd> schur(c);
   q_ = schur.matrixU();
   t_ = schur.matrixT();
-  integral_ = mass * Vector::Ones(mass.rows());
+  integral_ = *mass_ * Vector::Ones(mass_->rows());
   blocks_.clear();
-  for (Eigen::Index i = 0; i < c.rows(); i += blocks_.back().size) blocks_.push_back(make_block(mass, stiffness, i));
+  for (Eigen::Index i = 0; i < c.rows(); i += blocks_.back().size) blocks_.push_back(make_block(i));
 }
 
-CoupledSolver::Block CoupledSolver::make_block(const SparseMatrix& mass, const SparseMatrix& stiffness,
-                                               Eigen::Index first) const {
+CoupledSolver::Block CoupledSolver::make_block(Eigen::Index first) const {
   Block block;
   block.first = first;
   if (first + 1 == t_.rows() || t_(first + 1, first) == 0) {
-    combine(1, mass, t_(first, first), stiffness, block.real);
-    block.inverse_diagonal = inverse(diagonal(block.real));
+    combine(1, *mass_, t_(first, first), *stiffness_, block.real);
+    block.preconditioner = Jacobi(diagonal(block.real));
     return block;
   }
   block.size = 2;
@@ -52,14 +46,14 @@ CoupledSolver::Block CoupledSolver::make_block(const SparseMatrix& mass, const S
   const double mean = (a + d) / 2, half = (a - d) / 2;
   const std::complex<double> t(mean, std::sqrt(-(half * half + b * c)));
   block.second = (t - a) / c;
-  combine(mass, t, stiffness, block.complex);
-  block.complex_inverse_diagonal = inverse(ComplexVector(diagonal(mass) + t * diagonal(stiffness)));
+  combine(*mass_, t, *stiffness_, block.complex);
+  block.complex_preconditioner = Jacobi(ComplexVector(diagonal(*mass_) + t * diagonal(*stiffness_)));
   return block;
 }
 
 SolveReport CoupledSolver::solve_real(const Block& block, const Vector& f, Vector& y,
                                       const ConjugateGradientOptions& options) {
-  const SolveReport report = real_solver_.solve(block.real, block.inverse_diagonal, f, y, options);
+  const SolveReport report = conjugate_gradient(block.real, block.preconditioner, f, y, nullptr, options, real_work_);
   y.array() += (f.sum() - dot(integral_, y)) / integral_.sum();
   return report;
 }
@@ -68,7 +62,8 @@ SolveReport CoupledSolver::solve_pair(const Block& block, const Vector& f1, cons
                                       const ConjugateGradientOptions& options) {
   const ComplexVector f = f1 + block.second * f2;
   ComplexVector z = y1 + block.second * y2;
-  const SolveReport report = complex_solver_.solve(block.complex, block.complex_inverse_diagonal, f, z, options);
+  const SolveReport report =
+      conjugate_gradient(block.complex, block.complex_preconditioner, f, z, nullptr, options, complex_work_);
   y2 = z.imag() / block.second.imag();
   y1 = z.real() - block.second.real() * y2;
   y1.array() += (f1.sum() - dot(integral_, y1)) / integral_.sum();
@@ -85,7 +80,7 @@ std::vector<Vector> CoupledSolver::rotated(const Eigen::MatrixXd& q, const std::
   return result;
 }
 
-SolveReport CoupledSolver::solve(const SparseMatrix& stiffness, const std::vector<Vector>& b, std::vector<Vector>& x,
+SolveReport CoupledSolver::solve(const std::vector<Vector>& b, std::vector<Vector>& x,
                                  const ConjugateGradientOptions& options) {
   assert(static_cast<Eigen::Index>(b.size()) == c_.rows() && x.size() == b.size());
   std::vector<Vector> f = rotated(q_.transpose(), b), y = rotated(q_.transpose(), x);
@@ -97,7 +92,7 @@ SolveReport CoupledSolver::solve(const SparseMatrix& stiffness, const std::vecto
                           : solve_pair(*block, f[i], f[i + 1], y[i], y[i + 1], options),
          report);
     for (Eigen::Index k = block->first; k < block->first + block->size && block->first > 0; ++k) {
-      const Vector flux = stiffness * y[static_cast<std::size_t>(k)];
+      const Vector flux = *stiffness_ * y[static_cast<std::size_t>(k)];
       for (Eigen::Index row = 0; row < block->first; ++row)
         axpby(-t_(row, k), flux, 1, f[static_cast<std::size_t>(row)]);
     }

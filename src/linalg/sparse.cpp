@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <limits>
 
 #include "base/parallel.h"
 
@@ -95,6 +97,28 @@ double dot(const Vector& x, const Vector& y) {
     const auto first = static_cast<Eigen::Index>(begin), count = static_cast<Eigen::Index>(end - begin);
     return x.segment(first, count).dot(y.segment(first, count));
   });
+}
+
+double norm(const Vector& x) { return std::sqrt(dot(x, x)); }
+
+double sum(const Vector& x) {
+  return ordered_sum(static_cast<std::size_t>(x.size()), 0.0, [&](std::size_t begin, std::size_t end) {
+    double part = 0;
+    for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i) part += x[i];
+    return part;
+  });
+}
+
+double minimum(const Vector& x) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double value : x) least = std::min(least, value);
+  return least;
+}
+
+double maximum(const Vector& x) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const double value : x) largest = std::max(largest, value);
+  return largest;
 }
 
 void axpby(double alpha, const Vector& x, double beta, Vector& y) {

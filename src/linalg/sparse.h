@@ -29,6 +29,11 @@ struct SparseMatrix {
   std::int32_t columns() const { return pattern->columns; }
 };
 
+/// Matrices that are shared never change: one with other values is another object, which is how those who keep
+/// something made of it know.
+using SharedMatrix = std::shared_ptr<const SparseMatrix>;
+using SharedVector = std::shared_ptr<const Vector>;
+
 /// A matrix of zeros.
 SparseMatrix zeros(std::shared_ptr<const SparsePattern> pattern);
 
@@ -44,8 +49,16 @@ void combine(double alpha, const SparseMatrix& a, double beta, const SparseMatri
 
 Vector diagonal(const SparseMatrix& a);
 
-/// x . y, summed in fixed chunks in order.
+// Reductions go over fixed chunks in order.
+
+/// x . y.
 double dot(const Vector& x, const Vector& y);
+/// Euclidean length.
+double norm(const Vector& x);
+double sum(const Vector& x);
+/// Of a vector that is not empty. NaN entries do not take part.
+double minimum(const Vector& x);
+double maximum(const Vector& x);
 /// y = alpha x + beta y.
 void axpby(double alpha, const Vector& x, double beta, Vector& y);
 

@@ -105,18 +105,23 @@ Color parse_hex_color(const std::string& hex) {
   return color;
 }
 
-Color Ramp::operator()(double t) const {
-  assert(!stops.empty());
-  const auto above = std::upper_bound(stops.begin(), stops.end(), t, [](double x, const Stop& s) { return x < s.at; });
-  if (above == stops.begin()) return clamp(stops.front().color);
-  if (above == stops.end()) return clamp(stops.back().color);
+RampTable::RampTable(const Ramp& ramp) {
+  assert(!ramp.stops.empty());
+  for (const Stop& s : ramp.stops) entries_.push_back({s.at, clamp(s.color), oklab_from_linear(s.color)});
+}
+
+Color RampTable::operator()(double t) const {
+  const auto above = std::ranges::upper_bound(entries_, t, {}, &Entry::at);
+  if (above == entries_.begin()) return entries_.front().color;
+  if (above == entries_.end()) return entries_.back().color;
   const auto below = above - 1;
   const double weight = (t - below->at) / (above->at - below->at);
-  const std::array<double, 3> low = oklab_from_linear(below->color), high = oklab_from_linear(above->color);
   std::array<double, 3> lab{};
-  for (std::size_t k = 0; k < 3; ++k) lab[k] = (1 - weight) * low[k] + weight * high[k];
+  for (std::size_t k = 0; k < 3; ++k) lab[k] = (1 - weight) * below->lab[k] + weight * above->lab[k];
   return clamp(linear_from_oklab(lab));
 }
+
+Color Ramp::operator()(double t) const { return RampTable(*this)(t); }
 
 std::vector<std::string> ramp_names() {
   std::vector<std::string> names;

@@ -33,6 +33,23 @@ struct Ramp {
   Color operator()(double t) const;
 };
 
+/// A ramp made ready for many samples.
+class RampTable {
+ public:
+  RampTable() = default;
+  explicit RampTable(const Ramp& ramp);
+  /// The same colour as the ramp's, bit for bit.
+  Color operator()(double t) const;
+
+ private:
+  struct Entry {
+    double at;
+    Color color;
+    std::array<double, 3> lab;
+  };
+  std::vector<Entry> entries_;
+};
+
 /// One of the ramps that come with the program. Low values of the animal ramps are the ground of the coat, high
 /// values its markings. Error(Fault::usage) with a suggestion if there is none of that name.
 Ramp named_ramp(const std::string& name);

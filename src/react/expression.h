@@ -32,6 +32,7 @@ struct Symbol {
     attribute,      ///< vertex attribute `name`
     uniform,        ///< white noise, uniform in [0, 1): one independent value per place
     gaussian,       ///< white noise, mean 0, variance 1
+    mask,           ///< not 0 inside the mask of a stage
     noise           ///< band-limited noise of `length` model length units, mean 0, variance 1
   };
   Kind kind = Kind::species;

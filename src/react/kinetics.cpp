@@ -4,7 +4,6 @@
 #include <cassert>
 #include <set>
 
-#include "base/parallel.h"
 #include "react/place_values.h"
 
 namespace pelage {
@@ -39,6 +38,14 @@ std::vector<double*> join(SpeciesOutput a, SpeciesOutput b) {
   return both;
 }
 
+/// One value per sample, or one for all.
+void spread(const std::vector<double>& values, std::span<double> out) {
+  if (values.size() == out.size() && out.size() != 1)
+    std::ranges::copy(values, out.begin());
+  else
+    std::ranges::fill(out, values.front());
+}
+
 }  // namespace
 
 /// Turns the equations of a model into programs over the samples.
@@ -59,7 +66,6 @@ class KineticsBuilder {
     for (std::size_t i = 0; i < e.initial.size(); ++i) kinetics_.initial_.push_back(bounded(e.initial[i], i));
     for (std::size_t i = 0; i < e.pin.size(); ++i)
       kinetics_.pin_.push_back(e.pin[i] ? bounded(*e.pin[i], i) : std::vector<double>{});
-    if (e.held) kinetics_.held_ = place_field(*e.held);
     for (const auto& a : e.anisotropy) {
       auto& fields = kinetics_.anisotropy_.emplace_back();
       if (a) fields = {place_field(a->theta), place_field(a->a1), place_field(a->a2)};
@@ -96,7 +102,7 @@ class KineticsBuilder {
     std::vector<NodeId> missing;
     for (const NodeId id : expressions)
       if (!field_of_.contains(id)) missing.push_back(id);
-    std::vector<std::vector<double>> values = evaluate_places(missing);
+    std::vector<std::vector<double>> values = evaluate_places(graph_, missing, places_, seed_);
     for (std::size_t k = 0; k < missing.size(); ++k) {
       field_of_[missing[k]] = kinetics_.fields_.size();
       kinetics_.fields_.push_back(std::move(values[k]));
@@ -106,35 +112,12 @@ class KineticsBuilder {
     return numbers;
   }
 
-  /// An expression of the place: one value per sample, or one for all.
-  std::vector<double> place_field(NodeId expression) {
-    const std::vector<NodeId> root = expand_powers(graph_, std::vector<NodeId>{expression});
-    return graph_[root[0]].dependence ? std::move(evaluate_places(root)[0])
-                                      : std::vector<double>{*graph_.constant_value(root[0])};
-  }
+  std::vector<double> place_field(NodeId expression) { return evaluate_place(graph_, expression, places_, seed_); }
 
   std::vector<double> bounded(NodeId expression, std::size_t i) {
     std::vector<double> values = place_field(expression);
     for (double& value : values) value = std::min(std::max(value, equations_.lower[i]), equations_.upper[i]);
     return values;
-  }
-
-  /// Values at all samples of expressions that depend on the place alone.
-  std::vector<std::vector<double>> evaluate_places(const std::vector<NodeId>& expressions) {
-    std::vector<NodeId> symbols;
-    std::vector<std::vector<double>> inputs, outputs(expressions.size(), std::vector<double>(kinetics_.size_));
-    std::vector<const double*> in;
-    std::vector<double*> out;
-    for (const NodeId id : reachable(graph_, expressions)) {
-      if (graph_[id].op != Op::symbol) continue;
-      symbols.push_back(id);
-      inputs.push_back(place_values(graph_.symbol_of(id), places_, seed_));
-    }
-    for (const auto& input : inputs) in.push_back(input.data());
-    for (auto& output : outputs) out.push_back(output.data());
-    const Tape tape(graph_, expressions, symbols, {});
-    parallel_for(kinetics_.size_, [&](std::size_t begin, std::size_t end) { tape.run(in, {}, begin, end, out); });
-    return outputs;
   }
 
   Kinetics& kinetics_;
@@ -178,18 +161,6 @@ void Kinetics::diffusion(SpeciesValues u, double t, std::size_t begin, std::size
   run(diffusion_, u, t, begin, end, join(c0, c1));
 }
 
-namespace {
-
-/// One value per sample, or one for all.
-void spread(const std::vector<double>& values, std::span<double> out) {
-  if (values.size() == out.size() && out.size() != 1)
-    std::ranges::copy(values, out.begin());
-  else
-    std::ranges::fill(out, values.front());
-}
-
-}  // namespace
-
 Kinetics::TensorField Kinetics::anisotropy(std::size_t i) const {
   TensorField field;
   const auto& [theta, a1, a2] = anisotropy_[i];
@@ -203,13 +174,6 @@ Kinetics::TensorField Kinetics::anisotropy(std::size_t i) const {
   return field;
 }
 
-std::vector<char> Kinetics::held() const {
-  if (held_.empty()) return {};
-  std::vector<char> held(size_);
-  for (std::size_t k = 0; k < size_; ++k) held[k] = held_[held_.size() == size_ ? k : 0] != 0;
-  return held;
-}
-
 void Kinetics::initial(std::size_t i, std::span<double> out) const {
   assert(out.size() == size_);
   spread(initial_[i], out);
@@ -218,6 +182,13 @@ void Kinetics::initial(std::size_t i, std::span<double> out) const {
 void Kinetics::pin(std::size_t i, std::span<double> out) const {
   assert(out.size() == size_ && !pin_[i].empty());
   spread(pin_[i], out);
+}
+
+std::vector<double> mask_values(const Model& model, const Places& places, std::uint64_t seed) {
+  Graph graph = model.equations().graph;
+  std::vector<double> values(places.positions.size());
+  spread(evaluate_place(graph, *model.equations().mask, places, seed), values);
+  return values;
 }
 
 }  // namespace pelage

@@ -20,6 +20,9 @@ struct Places {
   std::span<const double> k1 = {}, k2 = {};                        ///< principal curvatures, 1 / world unit
   std::map<std::string, std::span<const double>> attributes = {};  ///< vertex attributes of the mesh by name
   double length_unit = 1;                                          ///< world length of one model length unit
+  std::span<const Point> drawn_at = {};  ///< where random fields are drawn: places that have moved carry them along;
+                                         ///< empty: the positions
+  std::span<const double> mask = {};     ///< of the stage
 };
 
 /// Species values: u[s][i] is the concentration of species s at sample i.
@@ -56,8 +59,6 @@ class Kinetics {
   void initial(std::size_t i, std::span<double> out) const;
   /// Those that it starts from where concentrations are held; only of species with a pin.
   void pin(std::size_t i, std::span<double> out) const;
-  /// 1 for the samples whose concentrations are held, else 0; empty when the model holds none.
-  std::vector<char> held() const;
 
  private:
   friend class KineticsBuilder;
@@ -75,9 +76,11 @@ class Kinetics {
   std::vector<std::vector<double>> fields_;   ///< expressions of the place alone, one value per sample
   std::vector<std::vector<double>> initial_;  ///< one value per sample, or one for all
   std::vector<std::vector<double>> pin_;      ///< likewise; empty for species without
-  std::vector<double> held_;                  ///< likewise; empty when nothing is held
   std::vector<std::array<std::vector<double>, 3>> anisotropy_;  ///< theta, a1, a2 likewise; empty where isotropic
   Program rates_, split_, jacobian_, diffusion_;
 };
+
+/// The mask of a model that holds concentrations, one value per place: not 0 where they are held.
+std::vector<double> mask_values(const Model& model, const Places& places, std::uint64_t seed);
 
 }  // namespace pelage

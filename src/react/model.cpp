@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/fingerprint.h"
 #include "base/number.h"
 #include "base/suggest.h"
 #include "react/derivative.h"
@@ -60,16 +61,17 @@ bool is_coupled(const Equations& equations, std::size_t i) {
 /// One compilation: source -> equations.
 class Compiler {
  public:
-  explicit Compiler(const ModelSource& source) : source_(source) {}
+  Compiler(const ModelSource& source, const ModelChanges& changes) : source_(source), changes_(changes) {}
 
   Equations compile() {
     if (source_.species.empty()) fail("model \"" + source_.name + "\" has no species", source_.where);
     add_species();
     add_parameters();
     add_definitions();
+    add_changes();
     for (const SpeciesSource& species : source_.species) add_equation(species);
     for (std::size_t i = 0; i < source_.species.size(); ++i) check_coupling(i);
-    add_held();
+    require_nothing_held_is_coupled();
     add_jacobian();
     return std::move(equations_);
   }
@@ -104,18 +106,63 @@ class Compiler {
     }
   }
 
+  /// Parameters that are mapped are definitions before all others.
   void add_definitions() {
-    for (const DefinitionSource& definition : source_.definitions) {
-      claim(definition.name, definition.formula.where);
-      scope_.not_yet[definition.name] = "is defined further down; definitions use those above them";
+    if (changes_.points) {
+      claim("points", *changes_.points);
+      scope_.names["points"] = attribute("points", *changes_.points);
     }
-    for (const DefinitionSource& definition : source_.definitions) {
-      scope_.not_yet[definition.name] = "is being defined here; a definition cannot use itself";
-      const NodeId id = parse_formula(graph_, definition.formula, scope_, "definitions." + definition.name);
-      scope_.not_yet.erase(definition.name);
-      scope_.names[definition.name] = id;
+    std::vector<const DefinitionSource*> all;
+    for (const auto* list : {&changes_.maps, &source_.definitions})
+      for (const DefinitionSource& definition : *list) all.push_back(&definition);
+    for (const DefinitionSource* definition : all) {
+      claim(definition->name, definition->formula.where);
+      scope_.not_yet[definition->name] = "is defined further down; definitions use those above them";
+    }
+    for (const DefinitionSource* definition : all) {
+      scope_.not_yet[definition->name] = "is being defined here; a definition cannot use itself";
+      const NodeId id = parse_formula(graph_, definition->formula, scope_, "definitions." + definition->name);
+      scope_.not_yet.erase(definition->name);
+      scope_.names[definition->name] = id;
     }
   }
+
+  NodeId attribute(const std::string& name, const Location& where) {
+    Symbol symbol{Symbol::Kind::attribute};
+    symbol.name = name;
+    symbol.where = where;
+    return graph_.symbol(symbol);
+  }
+
+  /// The formulas of a stage. Their labels keep the random fields of a formula apart from those of the model.
+  void add_changes() {
+    if (changes_.mask) {
+      equations_.mask = parse_formula(graph_, *changes_.mask, scope_, "definitions.stage_mask");
+      if (graph_[*equations_.mask].dependence & (on_species | on_time))
+        fail("where concentrations are held cannot depend on them or on time", changes_.mask->where);
+      inside_ = graph_.symbol({Symbol::Kind::mask});
+    }
+    for (const auto& [species, formula] : changes_.carried)
+      initial_[species] = {attribute(formula.text, formula.where), formula.where};
+    for (const auto& [species, formula] : changes_.initial)
+      initial_[species] = {parse_formula(graph_, formula, scope_, "definitions.stage_initial_" + species),
+                           formula.where};
+    for (const auto& [species, formula] : changes_.pin)
+      pin_[species] = {parse_formula(graph_, formula, scope_, "definitions.stage_pin_" + species), formula.where};
+    if (changes_.size) size_ = parse_formula(graph_, *changes_.size, scope_, "definitions.stage_size");
+  }
+
+  /// Neither reaction nor diffusion inside of a mask that excludes.
+  NodeId outside(NodeId id) {
+    return changes_.mask && changes_.excluded ? graph_.make(Op::select, inside_, graph_.constant(0), id) : id;
+  }
+
+  /// Lengths scale with the root of the diffusion, and with the rates of an anisotropic one.
+  NodeId scaled_diffusion(NodeId id) {
+    if (size_) id = graph_.make(Op::multiply, id, graph_.make(Op::power, *size_, graph_.constant(2)));
+    return outside(id);
+  }
+  NodeId scaled_rate(NodeId id) { return outside(size_ ? graph_.make(Op::multiply, id, *size_) : id); }
 
   NodeId parse(const SpeciesSource& species, const std::string& key, const std::optional<Formula>& formula,
                double otherwise) {
@@ -126,11 +173,21 @@ class Compiler {
     return id;
   }
 
-  NodeId parse_initial(const SpeciesSource& species, const std::string& key, const std::optional<Formula>& formula) {
-    const NodeId id = parse(species, key, formula, 0);
+  NodeId require_initial(NodeId id, const Location& where) {
     if (graph_[id].dependence & (on_species | on_time))
-      fail("initial values cannot depend on species or on time", formula->where);
+      fail("initial values cannot depend on species or on time", where);
     return id;
+  }
+
+  void add_initial(const SpeciesSource& species) {
+    if (const auto changed = initial_.find(species.name); changed != initial_.end())
+      equations_.initial.push_back(require_initial(changed->second.id, changed->second.where));
+    else
+      equations_.initial.push_back(require_initial(parse(species, "initial", species.initial, 0),
+                                                   species.initial ? species.initial->where : species.where));
+    equations_.pin.emplace_back();
+    if (const auto pinned = pin_.find(species.name); pinned != pin_.end())
+      equations_.pin.back() = require_initial(pinned->second.id, pinned->second.where);
   }
 
   void add_equation(const SpeciesSource& species) {
@@ -138,9 +195,7 @@ class Compiler {
     equations_.algebraic.push_back(species.equals.has_value());
     add_diffusion(species);
     add_rate(species);
-    equations_.initial.push_back(parse_initial(species, "initial", species.initial));
-    equations_.pin.emplace_back();
-    if (species.pin) equations_.pin.back() = parse_initial(species, "pin", species.pin);
+    add_initial(species);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     equations_.lower.push_back(bound(species, "min", species.lower, -infinity));
     equations_.upper.push_back(bound(species, "max", species.upper, infinity));
@@ -148,7 +203,10 @@ class Compiler {
       fail("the lower bound of species \"" + species.name + "\" is above its upper bound", species.lower->where);
   }
 
-  static void require_nothing_else(const SpeciesSource& species) {
+  void require_nothing_else(const SpeciesSource& species) {
+    if (const auto changed = initial_.find(species.name); changed != initial_.end())
+      fail("species \"" + species.name + "\" is determined by `equals`; give nothing else beside it",
+           changed->second.where);
     if (species.anisotropy)
       fail("species \"" + species.name + "\" is determined by `equals`; give nothing else beside it",
            species.anisotropy->a1.where);
@@ -173,8 +231,9 @@ class Compiler {
                  (other == &species.diffusion ? "diffusion" : "C0 and C1") + ", not both",
              (*other)->where);
     const AnisotropySource& a = *species.anisotropy;
-    const Anisotropy nodes{parse_anisotropy(species, "theta", a.theta), parse_anisotropy(species, "a1", a.a1),
-                           parse_anisotropy(species, "a2", a.a2)};
+    const Anisotropy nodes{parse_anisotropy(species, "theta", a.theta),
+                           scaled_rate(parse_anisotropy(species, "a1", a.a1)),
+                           scaled_rate(parse_anisotropy(species, "a2", a.a2))};
     equations_.anisotropy.emplace_back(nodes);
     equations_.prefactor.push_back(graph_.constant(1));
     const Term across{&graph_, nodes.a2};
@@ -188,8 +247,8 @@ class Compiler {
     if (species.diffusion && coefficients)
       fail("species \"" + species.name + "\": give diffusion, or C0 and C1, not both", species.where);
     Term c0{&graph_, parse(species, "C0", species.c0, 1)};
-    Term c1{&graph_,
-            coefficients ? parse(species, "C1", species.c1, 1) : parse(species, "diffusion", species.diffusion, 0)};
+    Term c1{&graph_, scaled_diffusion(coefficients ? parse(species, "C1", species.c1, 1)
+                                                   : parse(species, "diffusion", species.diffusion, 0))};
     if (graph_.constant_value(c0.id)) {
       c1 = c0 * c1;
       c0.id = graph_.constant(1);
@@ -215,12 +274,13 @@ class Compiler {
     LinearSplit split;
     bool laplacians = false;
     if (species.rate || species.equals) {
-      rate = species.rate ? parse(species, "rate", species.rate, 0) : parse(species, "equals", species.equals, 0);
+      rate =
+          species.rate ? outside(parse(species, "rate", species.rate, 0)) : parse(species, "equals", species.equals, 0);
       laplacians = has_laplacian(graph_, rate);
       if (laplacians) rate = without_laplacians(rate, species);
       split = linear_split(graph_, rate, u.id);
     } else {
-      split = {parse(species, "C2", species.c2, 0), parse(species, "C3", species.c3, 0)};
+      split = {outside(parse(species, "C2", species.c2, 0)), outside(parse(species, "C3", species.c3, 0))};
       rate = (Term{&graph_, split.c2} * u + Term{&graph_, split.c3}).id;
     }
     if (!species.diffusion && !species.anisotropy && !species.c0 && !species.c1 && !species.equals && !laplacians)
@@ -290,14 +350,11 @@ class Compiler {
     return *value;
   }
 
-  void add_held() {
-    if (!source_.held) return;
-    equations_.held = parse_formula(graph_, *source_.held, scope_, "held");
-    if (graph_[*equations_.held].dependence & (on_species | on_time))
-      fail("where concentrations are held cannot depend on them or on time", source_.held->where);
+  void require_nothing_held_is_coupled() {
+    if (!changes_.mask) return;
     for (std::size_t i = 0; i < source_.species.size(); ++i)
       if (is_coupled(equations_, i))
-        fail("concentrations that are linked by lap() cannot be held", source_.held->where);
+        fail("concentrations that are linked by lap() cannot be held", changes_.mask->where);
   }
 
   void add_jacobian() {
@@ -309,7 +366,15 @@ class Compiler {
     }
   }
 
+  struct LocatedNode {
+    NodeId id;
+    Location where;
+  };
   const ModelSource& source_;
+  const ModelChanges& changes_;
+  std::map<std::string, LocatedNode> initial_, pin_;  ///< of the stage, by species
+  NodeId inside_ = -1;                                ///< the mask, as rates and diffusions know it
+  std::optional<NodeId> size_;
   Equations equations_;
   Graph& graph_ = equations_.graph;
   Scope scope_;
@@ -366,11 +431,47 @@ unsigned Model::diffusion_dependence(std::size_t i) const {
   return graph[equations_->prefactor[i]].dependence | graph[equations_->diffusion[i]].dependence;
 }
 
-Model compile(const ModelSource& source, const Overrides& overrides) {
+namespace {
+
+void add_graph(Fingerprint& f, const Graph& graph) {
+  for (NodeId id = 0; id < static_cast<NodeId>(graph.size()); ++id) {
+    const Node& node = graph[id];
+    f.add(static_cast<std::uint64_t>(node.op)).add(node.value);
+    if (node.op != Op::symbol) {
+      for (const NodeId operand : node.in) f.add(static_cast<std::uint64_t>(operand));
+      continue;
+    }
+    const Symbol& s = graph.symbol_of(id);
+    f.add(static_cast<std::uint64_t>(s.kind)).add(static_cast<std::uint64_t>(s.index)).add(s.name);
+    f.add(s.stream).add(s.length);
+  }
+}
+
+}  // namespace
+
+std::uint64_t Model::fingerprint() const {
+  const Equations& e = *equations_;
+  Fingerprint f;
+  add_graph(f, e.graph);
+  for (const auto* list : {&e.rate, &e.c2, &e.c3, &e.prefactor, &e.diffusion, &e.initial})
+    for (const NodeId id : *list) f.add(static_cast<std::uint64_t>(id));
+  for (const auto& a : e.anisotropy)
+    for (const NodeId id : a ? std::array{a->theta, a->a1, a->a2} : std::array{-1, -1, -1})
+      f.add(static_cast<std::uint64_t>(id));
+  for (const auto& pin : e.pin) f.add(static_cast<std::uint64_t>(pin.value_or(-1)));
+  f.add(static_cast<std::uint64_t>(e.mask.value_or(-1)));
+  for (const char algebraic : e.algebraic) f.add(static_cast<std::uint64_t>(algebraic));
+  f.add_all(e.cross).add_all(e.lower).add_all(e.upper);
+  return f.value();
+}
+
+Model compile(const ModelSource& source, const Overrides& overrides, const ModelChanges& changes) {
   ModelSource changed = source;
   apply_overrides(changed, overrides);
+  for (const DefinitionSource& map : changes.maps)
+    std::erase_if(changed.parameters, [&](const ParameterSource& p) { return p.name == map.name; });
   Model model;
-  model.equations_ = std::make_shared<const Equations>(Compiler(changed).compile());
+  model.equations_ = std::make_shared<const Equations>(Compiler(changed, changes).compile());
   model.source_ = std::make_shared<const ModelSource>(std::move(changed));
   return model;
 }

@@ -39,7 +39,6 @@ struct SpeciesSource {
   std::optional<Formula> c0, c1, c2,
       c3;                               ///< instead of `diffusion` (C0, C1) or of `rate` (C2, C3); C0, C1 default to 1
   std::optional<Formula> initial;       ///< at time 0; defaults to 0
-  std::optional<Formula> pin;           ///< at time 0 where concentrations are held, instead of `initial`
   std::optional<Formula> lower, upper;  ///< bounds to which the concentration is clamped; numbers or parameters
 };
 
@@ -99,10 +98,24 @@ struct ModelSource {
   std::vector<SpeciesSource> species;
   std::vector<ParameterSource> parameters;
   std::vector<DefinitionSource> definitions;
-  std::optional<Formula> held;  ///< where it is true the concentrations stay what they are initially
   std::vector<VariantSource> variants;
   std::optional<double> wavelength;  ///< measured spacing of the finished pattern, model length units
   Suggestions suggestions;
+};
+
+/// What a stage of a recipe changes in a model. Its formulas know what those of the model know.
+struct ModelChanges {
+  struct OfSpecies {
+    std::string species;
+    Formula formula;
+  };
+  std::vector<DefinitionSource> maps;   ///< parameters that differ from place to place
+  std::optional<Location> points;       ///< the name `points` stands for the attribute of that name
+  std::optional<Formula> mask;          ///< where it is not 0 the concentrations stay what they are initially
+  bool excluded = false;                ///< and neither react nor diffuse
+  std::vector<OfSpecies> carried;       ///< initial concentrations from an attribute, whose name is the text
+  std::vector<OfSpecies> initial, pin;  ///< initial concentrations, everywhere and inside of the mask
+  std::optional<Formula> size;          ///< factor on all lengths
 };
 
 /// The model with the values of one of its variants. Error(usage) for an unknown variant.
@@ -126,8 +139,8 @@ struct Equations {
   std::vector<std::optional<Anisotropy>> anisotropy;
   std::vector<double> cross;               ///< coefficient of lap(u_j) in equation i at [i * species + j], 0 for j = i
   std::vector<NodeId> initial;             ///< depends on the place only
-  std::vector<std::optional<NodeId>> pin;  ///< likewise
-  std::optional<NodeId> held;              ///< likewise; not 0 where the concentrations stay as they are
+  std::vector<std::optional<NodeId>> pin;  ///< likewise, where concentrations are held
+  std::optional<NodeId> mask;              ///< likewise; not 0 where they are; rates and diffusions know it as a symbol
   std::vector<NodeId> jacobian;            ///< dR_i / du_j at [i * species + j]
   std::vector<double> lower, upper;        ///< bounds of the concentrations, infinite where there is none
 };
@@ -155,7 +168,7 @@ class Model {
   bool anisotropic() const;
 
   /// Whether concentrations are held somewhere, and whether those of species i then start from other values.
-  bool held() const { return equations_->held.has_value(); }
+  bool held() const { return equations_->mask.has_value(); }
   bool pinned(std::size_t i) const { return equations_->pin[i].has_value(); }
 
   /// C0 * C1 of species i where both are numbers; otherwise see Kinetics::diffusion. Not negative unless coupled.
@@ -167,14 +180,18 @@ class Model {
   double lower(std::size_t i) const { return equations_->lower[i]; }
   double upper(std::size_t i) const { return equations_->upper[i]; }
 
+  /// The same for the same equations; see base/fingerprint.h.
+  std::uint64_t fingerprint() const;
+
  private:
-  friend Model compile(const ModelSource& source, const Overrides& overrides);
+  friend Model compile(const ModelSource& source, const Overrides& overrides, const ModelChanges& changes);
   std::shared_ptr<const ModelSource> source_;
   std::shared_ptr<const Equations> equations_;
 };
 
 /// Compiles a model with some of its parameters changed. Error(usage), located, for faults in the formulas,
-/// names that are unknown, reserved or given twice, and parameters outside of their range.
-Model compile(const ModelSource& source, const Overrides& overrides = {});
+/// names that are unknown, reserved or given twice, and parameters outside of their range. The names in `changes` are
+/// those of parameters and species of the model.
+Model compile(const ModelSource& source, const Overrides& overrides = {}, const ModelChanges& changes = {});
 
 }  // namespace pelage

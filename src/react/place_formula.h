@@ -1,5 +1,5 @@
 #pragma once
-// A single formula of the place: maps, masks, opacities.
+// A single formula of the place: maps, marks, opacities.
 
 #include <vector>
 
@@ -9,8 +9,10 @@ namespace pelage {
 
 class PlaceFormula {
  public:
-  /// Error(usage), located, when it is not a formula, or depends on time. It may use the definitions.
-  explicit PlaceFormula(const Formula& formula, std::vector<DefinitionSource> definitions = {});
+  /// Error(usage), located, when it is not a formula, or depends on more than the place. Each of `names` stands for the
+  /// attribute of that name, each of `numbers` for its value.
+  explicit PlaceFormula(const Formula& formula, const std::vector<std::string>& names = {},
+                        const std::map<std::string, double>& numbers = {});
 
   /// What it reads from the place.
   std::vector<Symbol> symbols() const;
@@ -18,7 +20,8 @@ class PlaceFormula {
   std::vector<double> at(const Places& places, std::uint64_t seed = 0) const;
 
  private:
-  Model model_;  ///< of one species, whose initial value is the formula
+  Graph graph_;
+  NodeId root_;
 };
 
 }  // namespace pelage

@@ -43,6 +43,14 @@ std::span<const double> attribute(const Symbol& symbol, const Places& places) {
   if (found != places.attributes.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& [name, values] : places.attributes) names.push_back(name);
+  require_attribute(symbol, names);
+  return {};
+}
+
+}  // namespace
+
+void require_attribute(const Symbol& symbol, const std::vector<std::string>& names) {
+  if (std::ranges::count(names, symbol.name) > 0) return;
   const std::string hint = did_you_mean(symbol.name, names);
   if (symbol.name.find('.') != std::string::npos)
     throw Error(Fault::usage,
@@ -55,10 +63,13 @@ std::span<const double> attribute(const Symbol& symbol, const Places& places) {
               symbol.where);
 }
 
+namespace {
+
 std::vector<double> random_values(const Symbol& symbol, const Places& places, std::uint64_t seed) {
   const std::uint64_t stream = hash(seed, symbol.stream);
-  return tabulate(places.positions.size(), [&](std::size_t i) {
-    const Point& p = places.positions[i];
+  const auto drawn_at = places.drawn_at.empty() ? places.positions : places.drawn_at;
+  return tabulate(drawn_at.size(), [&](std::size_t i) {
+    const Point& p = drawn_at[i];
     if (symbol.kind == Symbol::Kind::uniform) return uniform(place_key(stream, p), 0);
     if (symbol.kind == Symbol::Kind::gaussian) return gaussian(place_key(stream, p));
     return smooth_noise(p, symbol.length * places.length_unit, stream);
@@ -99,9 +110,44 @@ std::vector<double> place_values(const Symbol& symbol, const Places& places, std
       require(values.size() == size, "attribute \"" + symbol.name + "\"", symbol);
       return {values.begin(), values.end()};
     }
+    case Symbol::Kind::mask:
+      require(places.mask.size() == size, "a mask", symbol);
+      return {places.mask.begin(), places.mask.end()};
     default:
       return random_values(symbol, places, seed);
   }
+}
+
+std::vector<std::vector<double>> evaluate_places(const Graph& graph, const std::vector<NodeId>& expressions,
+                                                 const Places& places, std::uint64_t seed) {
+  const std::size_t size = places.positions.size();
+  std::vector<NodeId> symbols;
+  std::vector<std::vector<double>> inputs, outputs(expressions.size(), std::vector<double>(size));
+  std::vector<const double*> in;
+  std::vector<double*> out;
+  for (const NodeId id : reachable(graph, expressions)) {
+    if (graph[id].op != Op::symbol) continue;
+    symbols.push_back(id);
+    inputs.push_back(place_values(graph.symbol_of(id), places, seed));
+  }
+  for (const auto& input : inputs) in.push_back(input.data());
+  for (auto& output : outputs) out.push_back(output.data());
+  const Tape tape(graph, expressions, symbols, {});
+  parallel_for(size, [&](std::size_t begin, std::size_t end) { tape.run(in, {}, begin, end, out); });
+  return outputs;
+}
+
+std::vector<double> evaluate_place(Graph& graph, NodeId expression, const Places& places, std::uint64_t seed) {
+  const std::vector<NodeId> root = expand_powers(graph, std::vector<NodeId>{expression});
+  if (!graph[root[0]].dependence) return {*graph.constant_value(root[0])};
+  return std::move(evaluate_places(graph, root, places, seed)[0]);
+}
+
+std::vector<Symbol> place_symbols(const Graph& graph, const std::vector<NodeId>& expressions) {
+  std::vector<Symbol> symbols;
+  for (const NodeId id : reachable(graph, expressions))
+    if (graph[id].op == Op::symbol && graph[id].dependence == on_place) symbols.push_back(graph.symbol_of(id));
+  return symbols;
 }
 
 std::vector<Symbol> place_symbols(const Model& model) {
@@ -113,11 +159,8 @@ std::vector<Symbol> place_symbols(const Model& model) {
     if (a) roots.insert(roots.end(), {a->theta, a->a1, a->a2});
   for (const auto& pin : e.pin)
     if (pin) roots.push_back(*pin);
-  if (e.held) roots.push_back(*e.held);
-  std::vector<Symbol> symbols;
-  for (const NodeId id : reachable(e.graph, roots))
-    if (e.graph[id].op == Op::symbol && e.graph[id].dependence == on_place) symbols.push_back(e.graph.symbol_of(id));
-  return symbols;
+  if (e.mask) roots.push_back(*e.mask);
+  return place_symbols(e.graph, roots);
 }
 
 }  // namespace pelage

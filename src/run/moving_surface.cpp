@@ -1,27 +1,13 @@
 #include "run/moving_surface.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "base/box.h"
 
 namespace pelage {
 
-namespace {
-
-Point middle_of_box(const std::vector<Point>& points) {
-  Point low = points[0], high = low, middle;
-  for (const Point& p : points)
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], p[k]);
-      high[k] = std::max(high[k], p[k]);
-    }
-  for (std::size_t k = 0; k < 3; ++k) middle[k] = (low[k] + high[k]) / 2;
-  return middle;
-}
-
-}  // namespace
-
 MovingSurface::MovingSurface(const TriangleMesh& shape, const SurfaceMotion& motion)
-    : motion_(motion), middle_(middle_of_box(shape.points)) {
+    : motion_(motion), middle_(box_of(shape.points).middle()) {
   if (motion.fair)
     fairing_ = std::make_unique<Fairing>(shape, *motion.fair);
   else

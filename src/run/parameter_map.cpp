@@ -85,21 +85,21 @@ TriangleMesh square(double wavelength, double resolution) {
   return mesh;
 }
 
-Program cell_program(const MapRequest& request, const Model& model, const TriangleMesh& shape, double wavelength,
-                     double side) {
+Program cell_program(const MapRequest& request, const Model& model, std::shared_ptr<const TriangleMesh> shape,
+                     double wavelength, double side) {
   const Suggestions& suggested = model.source().suggestions;
   Program p;
-  p.shape = shape;
-  p.model = model;
-  p.method = "loop";
-  p.stepper = "sbdf2";
-  p.size = wavelength / side;
-  p.length_unit = 1 / side;
-  p.suggested_step = suggested.step.value_or(1);
-  p.resolution = suggested.resolution_or_default();
-  p.until = request.until.value_or(suggested.end.value_or(1000));
-  p.stationary = suggested.tolerance.value_or(0);
-  p.seed = request.seed;
+  p.shape = std::move(shape);
+  StageProgram& s = p.stages.emplace_back();
+  s.name = "stage1";
+  s.model = model;
+  s.size = wavelength / side;
+  s.length_unit = 1 / side;
+  s.suggested_step = suggested.step.value_or(1);
+  s.until = request.until.value_or(suggested.end.value_or(1000));
+  s.stationary = suggested.tolerance.value_or(0);
+  s.seed = request.seed;
+  p.edge = s.size / suggested.resolution_or_default();
   return p;
 }
 
@@ -160,7 +160,8 @@ ParameterMap run_map(const MapRequest& request, const Progress& progress) {
   map.cells = empty_cells(request, models);
   const Lengths lengths = pattern_lengths(request, map.cells);
   map.side = request.side.value_or(wavelengths_per_side * lengths.longest);
-  const TriangleMesh shape = square(lengths.shortest / map.side, request.model.suggestions.resolution_or_default());
+  const auto shape = std::make_shared<const TriangleMesh>(
+      square(lengths.shortest / map.side, request.model.suggestions.resolution_or_default()));
   JobProgress jobs(progress, "running the cells", models.size());
   parallel_chunks(models.size(), [&](std::size_t c) {
     const auto report = [&](double fraction) { return jobs.report(c, fraction); };

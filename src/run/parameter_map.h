@@ -44,10 +44,6 @@ struct ParameterMap {
   std::vector<MapCell> cells;  ///< x runs fastest, from the lowest y
 };
 
-/// Below this contrast a cell counts as uniform. The forcing of a model (a slightly uneven substrate, say) shows
-/// contrasts of up to a percent without a pattern.
-inline constexpr double uniform_contrast = 0.02;
-
 /// Runs all cells, on all threads; the same bits for any number of them. Error(Fault::usage) for unknown parameters,
 /// values out of range and models of which no length is known, before any work; Error(Fault::cancelled).
 ParameterMap run_map(const MapRequest& request, const Progress& progress = {});

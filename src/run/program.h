@@ -1,14 +1,17 @@
 #pragma once
-// A recipe with its names resolved: everything that a run needs, checked before any work.
+// A recipe bound to a shape: all that a run needs, with every name resolved and every fault found. Immutable once a run
+// has it.
 
+#include <memory>
 #include <optional>
 
 #include "direction/guides.h"
+#include "discretise/method.h"
 #include "fair/fair.h"
-#include "pelage/recipe.h"
 #include "pelage/triangle_mesh.h"
 #include "react/model.h"
-#include "run/place_fields.h"
+#include "shape/texture.h"
+#include "time/stepper.h"
 
 namespace pelage {
 
@@ -22,38 +25,39 @@ struct SurfaceMotion {
   bool any() const { return fair || growth != 0; }
 };
 
-/// One stage.
-struct Program {
-  TriangleMesh shape;             ///< repaired control mesh; of later stages empty: they go on with that of the first
-  std::vector<Texture> textures;  ///< laid on the shape by its "uv"
-  std::string name;               ///< of the stage
-  Model model;
+struct StageProgram {
+  std::string name;
+  Model model;             ///< with what the stage changes in it
   std::string model_name;  ///< as the recipe gives it, with its variant
-  std::string method;      ///< of discretisation
-  std::string stepper;
+  const StepperKind* stepper = &sbdf2;
   double size = 0;             ///< wanted wavelength [world units]
   double length_unit = 0;      ///< world length of one model length unit: size / the model's wavelength
   std::optional<double> step;  ///< fixed step; else the stepper's choice
   double suggested_step = 0;
-  double resolution = 6;                ///< control vertices per wavelength, at least
   bool excluded = false;                ///< what the model holds is cut out: no flux passes its border
   std::optional<FieldWish> directions;  ///< of anisotropic diffusion; default: attribute "direction", or the smoothest
   std::optional<double> points;         ///< spacing of the random points that attribute(points) tells the distance to
-  std::optional<double> edge;  ///< longest edge [world units] where another stage asks for shorter ones than this
-  std::optional<int> levels;   ///< refine the shape so often, whatever the sizes
-  VertexAttributes fields;     ///< finished fields of earlier stages, "STAGE.SPECIES", at the refined vertices
-  double until = 0;            ///< model time
+  double until = 0;                     ///< model time
   std::optional<std::int64_t> steps;
   double stationary = 0;  ///< 0: never
   std::uint64_t seed = 1;
-  bool interpolate = false;
+
+  /// Whether the step follows the error.
+  bool adaptive() const { return !step && stepper->adaptive; }
+};
+
+struct Program {
+  std::shared_ptr<const TriangleMesh> shape;  ///< repaired control mesh; null where a run is given its space
+  std::vector<Texture> textures;              ///< laid on the shape by its "uv"
+  const Method* method = &loop_method;
+  bool interpolate = false;  ///< the surface goes through the vertices of the shape
+  double edge = 0;           ///< longest edge at the start [world units]
   SurfaceMotion motion;
+  std::vector<StageProgram> stages;   ///< at least one
+  std::vector<std::string> warnings;  ///< what was done otherwise than asked, each in one line
 };
 
 /// "STAGE.SPECIES", by which formulas find the field of an earlier stage.
-std::string field_name(const std::string& stage, const std::string& species);
-
-/// Length of the diagonal of the bounding box.
-double bounding_diagonal(const TriangleMesh& mesh);
+inline std::string field_name(const std::string& stage, const std::string& species) { return stage + "." + species; }
 
 }  // namespace pelage

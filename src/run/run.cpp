@@ -5,10 +5,12 @@
 #include <limits>
 #include <numbers>
 
+#include "base/box.h"
 #include "base/number.h"
-#include "linalg/conjugate_gradient.h"
 #include "pelage/error.h"
+#include "react/stability.h"
 #include "run/checkpoint.h"
+#include "run/stage_progress.h"
 #include "time/step_limit.h"
 #include "time/step_support.h"
 
@@ -28,125 +30,172 @@ constexpr double smallest_step_fraction = 1e-9;
 /// The residual lies far below the change of one step, which the warm start would otherwise swallow.
 constexpr double solver_tolerance = 1e-6;
 
-bool adaptive(const Program& p) { return !p.step && p.stepper == "sbdf2"; }
-
 /// The nonlinear terms need some room below the limit of the linear analysis.
 constexpr double share_of_stable_step = 0.8;
 
 /// Amounts are kept to this share whenever the surface moves, far below the error of a step.
 constexpr double amount_tolerance = 1e-12;
 
-/// Largest step that linear analysis allows the "paper" and "explicit" steppers [model time]; infinite for others.
-double find_stable_step(const Program& p, const Operators& operators) {
-  if (p.stepper == "sbdf2") return std::numeric_limits<double>::infinity();
-  return largest_stable_step(p.model, p.stepper, operators.largest_k2() * p.length_unit * p.length_unit);
+/// Largest step that linear analysis allows [model time]; infinite where the error tells.
+double find_stable_step(const StageProgram& p, const System& system, const SparseMatrix& stiffness) {
+  if (p.stepper->adaptive) return std::numeric_limits<double>::infinity();
+  return largest_stable_step(p.model, *p.stepper, largest_k2(*system.mass, stiffness) * p.length_unit * p.length_unit);
 }
 
-double first_step(const Program& p, double stable_step) {
+double first_step(const StageProgram& p, double stable_step) {
   if (p.step) return *p.step;
-  if (adaptive(p)) return p.suggested_step * first_step_fraction;
+  if (p.adaptive()) return p.suggested_step * first_step_fraction;
   return std::min(p.suggested_step, share_of_stable_step * stable_step);
 }
 
+void warn_of_anisotropy(const std::string& label, const Method& method, const StageProgram& p,
+                        const StageSystem& equations, std::vector<std::string>& warnings) {
+  for (std::size_t i = 0; i < p.model.species_count(); ++i) {
+    if (!p.model.anisotropic(i)) continue;
+    if (const double ratio = equations.anisotropy(i); ratio > method.safe_anisotropy)
+      warnings.push_back(label + "the rates of " + p.model.species_name(i) + " along and across differ " +
+                         number(ratio) + " times; above " + number(method.safe_anisotropy) + " times, with --method " +
+                         std::string(method.name) + ", the mesh itself begins to show in the stripes");
+  }
+}
+
+double magnitude(const Vector& u) { return u.size() > 0 ? std::max(std::abs(minimum(u)), std::abs(maximum(u))) : 0; }
+
 }  // namespace
 
-Run::Run(Program program, const Progress& progress) : Run(std::vector<Program>{std::move(program)}, progress) {}
+/// A stage in progress.
+struct Run::Stage {
+  std::vector<Point> began_at;  ///< the vertices of the shape
+  std::shared_ptr<const Material> material;
+  StageSystem equations;
+  std::unique_ptr<Stepper> stepper;
+  State state;
+  std::vector<double> first_magnitude;  ///< per species
+  double step = 0;
+  RunSummary summary;
+};
 
-Run::Run(std::vector<Program> stages, const Progress& progress) : stages_(std::move(stages)) {
-  if (program().motion.any()) surface_ = std::make_unique<MovingSurface>(program().shape, program().motion);
-  begin_stage(progress);
+Run::Run(Program program, const Progress& progress)
+    : program_(std::make_shared<const Program>(std::move(program))),
+      world_(program_, progress),
+      progress_(progress),
+      warnings_(program_->warnings) {
+  now_ = begin(0, world_, finished_, warnings_);
 }
 
-void Run::begin_stage(const Progress& progress) {
-  operators_ = std::make_unique<Operators>(program(), progress);
-  stepper_ = make_stepper(program().stepper);
-  const double stable_step = find_stable_step(program(), *operators_);
-  step_ = first_step(program(), stable_step);
-  state_ = {};
-  state_.now = operators_->initial();
-  summary_ = {};
-  summary_.step = step_;
-  warn_about_stage(stable_step);
-  check_stop();
-}
-
-void Run::warn_about_stage(double stable_step) {
-  const std::string stage = stages_.size() > 1 ? "stage " + program().name + ": " : "";
-  if (step_ > stable_step)
-    warnings_.push_back(stage + "the step " + number(step_) + " is beyond " + number(stable_step) +
-                        ", the largest that is stable for " + program().stepper +
-                        "; what grows may be an artefact of the step");
-  for (const std::string& text : operators_->warnings()) warnings_.push_back(stage + text);
-}
-
-void Run::next_stage() {
-  finished_.push_back({std::move(state_.now), summary_});
-  enter_stage(stage_ + 1, surface_ ? surface_->points() : program().shape.points);
-}
-
-/// The stage `number` on the mesh of the present one, with the fields of all finished stages.
-void Run::enter_stage(std::size_t number, std::vector<Point> points) {
-  Program& next = stages_[number];
-  if (number != stage_) next.shape = std::move(stages_[stage_].shape);
-  next.shape.points = std::move(points);
-  next.levels = operators_->levels();
-  next.fields.clear();
-  const SparseMatrix& at_vertices = operators_->discretisation().values;
-  for (std::size_t k = 0; k < finished_.size(); ++k)
-    for (std::size_t i = 0; i < finished_[k].fields.size(); ++i) {
-      const Vector values = at_vertices * finished_[k].fields[i];
-      next.fields[field_name(stages_[k].name, stages_[k].model.species_name(i))] = {values.begin(), values.end()};
-    }
-  stage_ = number;
-  begin_stage({});
+Run::Run(std::shared_ptr<const Program> program, World world, const Progress& progress)
+    : program_(std::move(program)), world_(std::move(world)), progress_(progress), warnings_(program_->warnings) {
+  now_ = begin(0, world_, finished_, warnings_);
 }
 
 Run::~Run() = default;
 Run::Run(Run&&) noexcept = default;
 
-bool Run::done() const {
-  return summary_.status == RunStatus::failed || (stage_done() && stage_ + 1 == stages_.size());
+std::unique_ptr<Run::Stage> Run::begin(std::size_t index, const World& world,
+                                       const std::vector<FinishedStage>& finished,
+                                       std::vector<std::string>& warnings) const {
+  const StageProgram& p = program_->stages[index];
+  const std::string label = program_->stages.size() > 1 ? "stage " + p.name + ": " : "";
+  report(progress_, label + "assembling", 0.4);
+  world.space().stiffness();
+  report(progress_, label + "sampling", 0.8);
+  auto material =
+      std::make_shared<const Material>(make_material(*program_, p, world, finished_fields(world.space(), finished)));
+  StageSystem equations(p, world.shared_space(), material);
+  const double stable_step = find_stable_step(p, equations.system(), *world.space().stiffness());
+  const double step = first_step(p, stable_step);
+  if (step > stable_step)
+    warnings.push_back(label + "the step " + number(step) + " is beyond " + number(stable_step) +
+                       ", the largest that is stable for " + std::string(p.stepper->name) +
+                       "; what grows may be an artefact of the step");
+  warn_of_anisotropy(label, *program_->method, p, equations, warnings);
+  State state;
+  state.now = equations.initial();
+  std::vector<double> first;
+  for (const Vector& u : state.now) first.push_back(magnitude(u));
+  auto stage = std::make_unique<Stage>(Stage{world.points(),
+                                             std::move(material),
+                                             std::move(equations),
+                                             p.stepper->make(),
+                                             std::move(state),
+                                             std::move(first),
+                                             step,
+                                             {}});
+  stage->summary.step = step;
+  check_stop(p, world, *stage);
+  return stage;
 }
+
+/// The finished fields at the nodes of the space, by name.
+VertexAttributes Run::finished_fields(const Space& space, const std::vector<FinishedStage>& finished) const {
+  VertexAttributes fields;
+  for (std::size_t k = 0; k < finished.size(); ++k)
+    for (std::size_t i = 0; i < finished[k].fields.size(); ++i) {
+      const StageProgram& p = program_->stages[k];
+      const Vector values = space.node_values() * finished[k].fields[i];
+      fields[field_name(p.name, p.model.species_name(i))] = {values.begin(), values.end()};
+    }
+  return fields;
+}
+
+void Run::next_stage() {
+  std::vector<FinishedStage> finished = finished_;
+  finished.push_back({now_->state.now, now_->summary});
+  now_ = begin(stage_ + 1, world_, finished, warnings_);
+  finished_ = std::move(finished);
+  ++stage_;
+}
+
+bool Run::done() const {
+  const RunStatus status = now_->summary.status;
+  return status == RunStatus::failed || (status != RunStatus::running && stage_ + 1 == program_->stages.size());
+}
+
+const RunSummary& Run::summary() const { return now_->summary; }
+const System& Run::system() const { return now_->equations.system(); }
+const std::vector<Vector>& Run::coefficients() const { return now_->state.now; }
+std::vector<Vector> Run::initial() const { return now_->equations.initial(); }
 
 double Run::fraction() const {
   if (done()) return 1;
-  double fraction = program().until > 0 ? state_.time / program().until : 0;
-  if (program().steps)
-    fraction = std::max(fraction, static_cast<double>(state_.step) / static_cast<double>(*program().steps));
-  if (stage_done()) fraction = 1;
-  return (static_cast<double>(stage_) + std::min(1.0, fraction)) / static_cast<double>(stages_.size());
+  const StageProgram& p = stage_program();
+  double fraction = p.until > 0 ? now_->state.time / p.until : 0;
+  if (p.steps) fraction = std::max(fraction, static_cast<double>(now_->state.step) / static_cast<double>(*p.steps));
+  if (now_->summary.status != RunStatus::running) fraction = 1;
+  return (static_cast<double>(stage_) + std::min(1.0, fraction)) / static_cast<double>(program_->stages.size());
 }
 
 /// The error does not see the limit of stability before it is passed, so that the step stays below the model's
 /// suggestion. The last step is cut to end on time; a rest below a thousandth of a step is joined to it.
 double Run::next_step() const {
-  const double rest = program().until - state_.time;
-  return rest < step_ * 1.001 ? rest : step_;
+  const double rest = stage_program().until - now_->state.time;
+  return rest < now_->step * 1.001 ? rest : now_->step;
 }
 
 const RunSummary& Run::advance(std::int64_t steps) {
   for (std::int64_t k = 0; k < steps && !done();) {
-    if (stage_done()) {
+    if (now_->summary.status != RunStatus::running) {
       next_stage();
       continue;
     }
-    follow_surface(state_.time + next_step());
-    operators_->update(state_);
+    const StageProgram& p = stage_program();
+    follow_surface(now_->state.time + next_step());
+    now_->equations.update(now_->state);
     StepRequest request{.dt = next_step(), .solver_tolerance = solver_tolerance};
-    if (adaptive(program())) request.largest_error = step_tolerance;
-    const StepReport report = stepper_->step(operators_->system(), state_, request);
-    summary_.iterations += report.iterations;
+    if (p.adaptive()) request.largest_error = step_tolerance;
+    const StepReport report = now_->stepper->step(system(), now_->state, request);
+    now_->summary.iterations += report.iterations;
     if (report.accepted) {
       accept(report);
       ++k;
-    } else if (adaptive(program()) && request.dt > smallest_step_fraction * program().suggested_step) {
-      ++summary_.rejected;
-      step_ = request.dt / 2;
+    } else if (p.adaptive() && request.dt > smallest_step_fraction * p.suggested_step) {
+      ++now_->summary.rejected;
+      now_->step = request.dt / 2;
     } else {
       fail(report);
     }
   }
-  return summary_;
+  return now_->summary;
 }
 
 /// Brings surface, matrices and state to the place where the next step, which ends at `time`, finds them. The values of
@@ -155,102 +204,138 @@ const RunSummary& Run::advance(std::int64_t steps) {
 /// with v = u for textures; with M^(n+1) v^n = M^n u^n it is the evolving surface finite element method (Dziuk, Elliott
 /// 2007; Barreira, Elliott, Madzvamuse 2011) for d/dt (M u) + D K u = F.
 void Run::follow_surface(double time) {
-  std::int64_t steps = state_.step;
+  State& state = now_->state;
+  std::int64_t steps = state.step;
   for (const FinishedStage& stage : finished_) {
     steps += stage.summary.steps;
     time += stage.summary.time;
   }
-  if (!surface_ || !surface_->advance(steps, time)) return;
-  const SparseMatrix mass_before = *operators_->system().mass;
-  operators_->place(program(), surface_->points());
-  if (program().motion.physical) keep_amounts(mass_before);
-  stepper_ = make_stepper(program().stepper);  // the matrices that it kept are of the old surface
-  if (state_.past_rates.empty()) return;
+  if (!world_.follow(steps, time)) return;
+  const SharedMatrix mass_before = system().mass;
+  now_->equations = StageSystem(stage_program(), world_.shared_space(), now_->material);
+  if (program_->motion.physical) keep_amounts(*mass_before);
+  if (state.past_rates.empty()) return;
   std::vector<Vector> samples;
-  sample_fields(operators_->system(), state_.past[0], samples);
-  evaluate_rates(operators_->system(), samples, state_.time - state_.past_steps[0], state_.past_rates);
+  sample_fields(system(), state.past[0], samples);
+  evaluate_rates(system(), samples, state.time - state.past_steps[0], state.past_rates);
 }
 
 /// Algebraic species follow from the others and have no amount of their own to keep.
 void Run::keep_amounts(const SparseMatrix& mass_before) {
-  const System& system = operators_->system();
   const auto keep = [&](std::vector<Vector>& fields) {
     for (std::size_t i = 0; i < fields.size(); ++i)
-      if (!system.species[i].algebraic)
-        fields[i] = solve_spd(*system.mass, mass_before * fields[i], {.tolerance = amount_tolerance});
+      if (!system().species[i].algebraic)
+        fields[i] = solve_spd(*system().mass, mass_before * fields[i], {.tolerance = amount_tolerance});
   };
-  keep(state_.now);
-  for (std::vector<Vector>& fields : state_.past) keep(fields);
+  keep(now_->state.now);
+  for (std::vector<Vector>& fields : now_->state.past) keep(fields);
 }
 
 std::vector<double> Run::amounts() const {
-  const SparseMatrix& mass = *operators_->system().mass;
+  const SparseMatrix& mass = *system().mass;
   const Vector integral = mass * Vector::Ones(mass.rows());
   std::vector<double> amounts;
-  for (const Vector& u : state_.now) amounts.push_back(dot(integral, u));
+  for (const Vector& u : coefficients()) amounts.push_back(dot(integral, u));
   return amounts;
 }
 
 void Run::accept(const StepReport& report) {
-  summary_.time = state_.time;
-  summary_.steps = state_.step;
-  summary_.minimum = report.minimum;
-  summary_.maximum = report.maximum;
-  summary_.change = report.change;
+  RunSummary& summary = now_->summary;
+  summary.time = now_->state.time;
+  summary.steps = now_->state.step;
+  summary.minimum = report.minimum;
+  summary.maximum = report.maximum;
+  summary.change = report.change;
   // The estimate grows with the third power of the step.
   const double room = step_factor * step_factor * step_factor * 1.2;
-  if (adaptive(program()) && state_.past.size() > 1 && report.error * room < step_tolerance)
-    step_ = std::min(step_ * step_factor, program().suggested_step);
-  summary_.step = step_;
-  check_stop();
+  const StageProgram& p = stage_program();
+  if (p.adaptive() && now_->state.past.size() > 1 && report.error * room < step_tolerance)
+    now_->step = std::min(now_->step * step_factor, p.suggested_step);
+  summary.step = now_->step;
+  check_stop(p, world_, *now_);
 }
 
-void Run::check_stop() {
-  if (program().steps && state_.step >= *program().steps)
-    summary_.status = RunStatus::steps_reached;
-  else if (state_.time >= program().until)
-    summary_.status = RunStatus::time_reached;
-  else if (surface_ && surface_->moving())
-    summary_.status = RunStatus::running;
-  else if (state_.step > 0 && program().stationary > 0 && summary_.change < program().stationary)
-    summary_.status = RunStatus::stationary;
+void Run::check_stop(const StageProgram& p, const World& world, Stage& stage) {
+  RunSummary& summary = stage.summary;
+  if (p.steps && stage.state.step >= *p.steps)
+    summary.status = RunStatus::steps_reached;
+  else if (stage.state.time >= p.until)
+    summary.status = RunStatus::time_reached;
+  else if (world.surface() && world.surface()->moving())
+    summary.status = RunStatus::running;
+  else if (stage.state.step > 0 && p.stationary > 0 && summary.change < p.stationary)
+    summary.status = RunStatus::stationary;
 }
 
 void Run::fail(const StepReport& report) {
-  summary_.status = RunStatus::failed;
-  summary_.message = (stages_.size() > 1 ? "stage " + program().name + ", step " : "step ") +
-                     std::to_string(state_.step + 1) + ", time " + number(state_.time) + ": " +
-                     (report.failure.empty() ? "the fields change too fast for the smallest step" : report.failure) +
-                     "; " +
-                     (program().step ? "halve the step or leave it to the stepper"
-                                     : "check the parameters of the model, or give a smaller --step");
+  const StageProgram& p = stage_program();
+  RunSummary& summary = now_->summary;
+  summary.status = RunStatus::failed;
+  summary.message = (program_->stages.size() > 1 ? "stage " + p.name + ", step " : "step ") +
+                    std::to_string(now_->state.step + 1) + ", time " + number(now_->state.time) + ": " +
+                    (report.failure.empty() ? "the fields change too fast for the smallest step" : report.failure) +
+                    "; " +
+                    (p.step ? "halve the step or leave it to the stepper"
+                            : "check the parameters of the model, or give a smaller --step");
+}
+
+double Run::contrast(std::size_t i) const {
+  const Vector& u = coefficients()[i];
+  const double scale = std::max(now_->first_magnitude[i], magnitude(u));
+  return scale > 0 ? (maximum(u) - minimum(u)) / scale : 0;
+}
+
+bool Run::uniform() const {
+  for (std::size_t i = 0; i < coefficients().size(); ++i)
+    if (contrast(i) >= uniform_contrast) return false;
+  return true;
+}
+
+std::string Run::why_uniform() const {
+  constexpr double dead_share = 1e-3;
+  const StageProgram& p = stage_program();
+  if (summary().status == RunStatus::steps_reached)
+    return "it was stopped after " + std::to_string(summary().steps) + " steps";
+  for (std::size_t i = 0; i < coefficients().size(); ++i)
+    if (magnitude(coefficients()[i]) < dead_share * now_->first_magnitude[i])
+      return p.model.species_name(i) + " has died out";
+  if (const double diagonal = box_of(world_.points()).diagonal(); diagonal > 0 && p.size > diagonal)
+    return "a wavelength of " + number(p.size) + " does not fit on a shape of " + number(diagonal);
+  if (const Stability s = analyse(p.model); !s.steady_states.empty() && !s.band_max)
+    return "by linear theory no wave grows at these parameters";
+  return "what has grown is fainter than " + number(100 * uniform_contrast) + " %";
 }
 
 CoatFields Run::fields() const {
   CoatFields f;
-  f.shape = program().shape;
-  if (surface_) f.shape.points = surface_->points();
-  f.textures = program().textures;
-  f.levels = operators_->levels();
-  f.loop = program().method == "loop";
-  f.control = operators_->control();
-  f.wavelength = program().size;
-  for (const Program& stage : stages_) f.wavelength = std::min(f.wavelength, stage.size);
-  const auto add = [&](const std::string& name, const Vector& u) {
+  f.shape = program_->shape;
+  f.points = world_.points();
+  f.textures = program_->textures;
+  f.hierarchy = world_.hierarchy();
+  f.method = program_->method;
+  f.space = world_.shared_space();
+  f.initial_control = world_.initial_control();
+  f.length_unit = stage_program().length_unit;
+  f.seed = stage_program().seed;
+  f.wavelength = std::ranges::min(program_->stages, {}, &StageProgram::size).size;
+  const auto add = [&](const std::string& name, const Vector& u, bool uniform) {
     f.species.push_back(name);
     f.coefficients.emplace_back(u.begin(), u.end());
+    f.uniform.push_back(uniform);
   };
   for (std::size_t k = 0; k < finished_.size(); ++k)
     for (std::size_t i = 0; i < finished_[k].fields.size(); ++i)
-      add(field_name(stages_[k].name, stages_[k].model.species_name(i)), finished_[k].fields[i]);
-  for (std::size_t i = 0; i < state_.now.size(); ++i) add(program().model.species_name(i), state_.now[i]);
+      add(field_name(program_->stages[k].name, program_->stages[k].model.species_name(i)), finished_[k].fields[i],
+          false);
+  for (std::size_t i = 0; i < coefficients().size(); ++i)
+    add(stage_program().model.species_name(i), coefficients()[i], contrast(i) < uniform_contrast);
   return f;
 }
 
 double measured_wavelength(const SparseMatrix& mass, const SparseMatrix& stiffness, const Vector& u) {
   const Vector ones = Vector::Ones(u.size());
   const Vector integral = mass * ones;
-  const Vector deviation = u.array() - dot(integral, u) / integral.sum();
+  const Vector deviation = u.array() - dot(integral, u) / sum(integral);
   return 2 * std::numbers::pi * std::sqrt(dot(deviation, mass * deviation) / dot(deviation, stiffness * deviation));
 }
 
@@ -258,8 +343,9 @@ double measured_wavelength(const SparseMatrix& mass, const SparseMatrix& stiffne
 
 namespace {
 
-constexpr char magic[] = "pelage checkpoint 2\n";
-constexpr const char* foreign = "the checkpoint belongs to another shape, size, model or recipe";
+constexpr char magic[] = "pelage checkpoint 3\n";
+constexpr const char* foreign =
+    "the checkpoint belongs to another run: shape, recipe, size, seed and options must be the same";
 
 /// Points as a field of their coordinates, one after the other.
 Vector flattened(const std::vector<Point>& points) {
@@ -277,39 +363,40 @@ std::vector<Point> as_points(const Vector& flat) {
 }
 
 bool has_sizes(const std::vector<Vector>& fields, std::size_t count, Eigen::Index size) {
-  return fields.size() == count &&
-         std::all_of(fields.begin(), fields.end(), [&](const Vector& f) { return f.size() == size; });
+  return fields.size() == count && std::ranges::all_of(fields, [&](const Vector& f) { return f.size() == size; });
 }
 
 }  // namespace
 
 std::string Run::checkpoint() const {
+  const State& state = now_->state;
   std::string out = magic;
   CheckpointWriter w(out);
-  w.number(state_.time);
-  w.number(state_.step);
-  w.number(step_);
-  w.number(summary_.change);
-  w.number(static_cast<std::uint64_t>(stage_));
+  w.number(fingerprint(*program_));
+  w.number(state.time);
+  w.number(state.step);
+  w.number(now_->step);
+  w.number(now_->summary.change);
+  w.number(std::uint64_t{stage_});
   for (const FinishedStage& stage : finished_) {
     w.number(static_cast<std::uint64_t>(stage.summary.status));
     w.number(stage.summary.time);
     w.number(stage.summary.steps);
     w.fields(stage.fields);
   }
-  w.fields(state_.now);
-  w.number(static_cast<std::uint64_t>(state_.past.size()));
-  for (std::size_t k = 0; k < state_.past.size(); ++k) {
-    w.number(state_.past_steps[k]);
-    w.fields(state_.past[k]);
+  w.fields(state.now);
+  w.number(std::uint64_t{state.past.size()});
+  for (std::size_t k = 0; k < state.past.size(); ++k) {
+    w.number(state.past_steps[k]);
+    w.fields(state.past[k]);
   }
-  w.fields(state_.past_rates);
-  if (!surface_) return out;
-  const MovingSurface::State surface = surface_->state();
-  w.fields({flattened(program().shape.points)});  // where the stage began
+  w.fields(state.past_rates);
+  if (!world_.surface()) return out;
+  const MovingSurface::State surface = world_.surface()->state();
+  w.fields({flattened(now_->began_at)});
   w.number(surface.scale);
-  w.number(static_cast<std::uint64_t>(surface.fair_steps));
-  w.number(static_cast<std::uint64_t>(surface.fair_done));
+  w.number(std::int64_t{surface.fair_steps});
+  w.number(std::uint64_t{surface.fair_done});
   w.fields({flattened(surface.faired)});
   return out;
 }
@@ -320,41 +407,42 @@ struct Run::Snapshot {
   double step = 0, change = 0;
   std::size_t stage = 0;
   std::vector<FinishedStage> finished;
-  std::vector<Vector> start, faired;  ///< points
+  std::vector<Vector> began_at, faired;  ///< points
   MovingSurface::State surface;
 };
 
-/// Error(Fault::input) when the bytes end early, go on for too long, or speak of a stage that this run does not have.
+/// Error(Fault::input) when the bytes end early, go on for too long, or belong to another program.
 Run::Snapshot Run::read_snapshot(const std::string& bytes) const {
-  if (bytes.compare(0, sizeof magic - 1, magic) != 0) throw Error(Fault::input, "this is not a checkpoint");
-  const std::string body = bytes.substr(sizeof magic - 1);
-  CheckpointReader r(body);
+  if (bytes.compare(0, sizeof magic - 1, magic) != 0)
+    throw Error(Fault::input, "this is not a checkpoint of this version");
+  CheckpointReader r(bytes, sizeof magic - 1);
+  if (r.count() != fingerprint(*program_)) throw Error(Fault::input, foreign);
   Snapshot s;
-  s.state.time = r.number<double>();
-  s.state.step = r.number<std::int64_t>();
-  s.step = r.number<double>();
-  s.change = r.number<double>();
-  s.stage = static_cast<std::size_t>(r.number<std::uint64_t>());
-  if (s.stage >= stages_.size()) throw Error(Fault::input, foreign);
+  s.state.time = r.number();
+  s.state.step = r.integer();
+  s.step = r.number();
+  s.change = r.number();
+  s.stage = r.count();
+  if (s.stage >= program_->stages.size()) throw Error(Fault::input, foreign);
   for (std::size_t k = 0; k < s.stage; ++k) {
     FinishedStage& stage = s.finished.emplace_back();
-    stage.summary.status = static_cast<RunStatus>(r.number<std::uint64_t>());
-    stage.summary.time = r.number<double>();
-    stage.summary.steps = r.number<std::int64_t>();
+    stage.summary.status = static_cast<RunStatus>(r.count());
+    stage.summary.time = r.number();
+    stage.summary.steps = r.integer();
     stage.fields = r.fields();
   }
   s.state.now = r.fields();
-  const auto depth = r.number<std::uint64_t>();
+  const std::uint64_t depth = r.count();
   for (std::uint64_t k = 0; k < depth && k < 2; ++k) {
-    s.state.past_steps.push_back(r.number<double>());
+    s.state.past_steps.push_back(r.number());
     s.state.past.push_back(r.fields());
   }
   s.state.past_rates = r.fields();
-  if (surface_) {
-    s.start = r.fields();
-    s.surface.scale = r.number<double>();
-    s.surface.fair_steps = static_cast<int>(r.number<std::uint64_t>());
-    s.surface.fair_done = r.number<std::uint64_t>() != 0;
+  if (world_.surface()) {
+    s.began_at = r.fields();
+    s.surface.scale = r.number();
+    s.surface.fair_steps = static_cast<int>(r.integer());
+    s.surface.fair_done = r.count() != 0;
     s.faired = r.fields();
   }
   if (!r.at_end()) throw Error(Fault::input, foreign);
@@ -363,41 +451,47 @@ Run::Snapshot Run::read_snapshot(const std::string& bytes) const {
 
 /// Whether all sizes are those of this run.
 bool Run::fits(const Snapshot& s) const {
-  const auto unknowns = operators_->system().mass->rows();
-  const std::size_t species = stages_[s.stage].model.species_count();
+  const StageProgram& p = program_->stages[s.stage];
+  const Eigen::Index unknowns = space().unknowns();
+  const std::size_t species = p.model.species_count();
   bool fits = has_sizes(s.state.now, species, unknowns);
   for (const auto& fields : s.state.past) fits = fits && has_sizes(fields, species, unknowns);
   for (std::size_t k = 0; k < s.finished.size(); ++k)
-    fits = fits && has_sizes(s.finished[k].fields, stages_[k].model.species_count(), unknowns);
-  if (program().stepper == "sbdf2" && !s.state.past.empty())  // which samples at the vertices
-    fits = fits && has_sizes(s.state.past_rates, species, unknowns);
-  if (!surface_) return fits;
-  return fits && s.surface.scale > 0 && has_sizes(s.start, 1, 3 * std::ssize(program().shape.points)) &&
-         has_sizes(s.faired, 1, 3 * std::ssize(surface_->state().faired));
+    fits = fits && has_sizes(s.finished[k].fields, program_->stages[k].model.species_count(), unknowns);
+  if (p.stepper->keeps_rates && !s.state.past.empty())
+    fits = fits && has_sizes(s.state.past_rates, species, space().sampled(p.stepper->samples).sampling->count());
+  if (!world_.surface()) return fits;
+  return fits && s.surface.scale > 0 && has_sizes(s.began_at, 1, 3 * std::ssize(program_->shape->points)) &&
+         has_sizes(s.faired, 1, 3 * std::ssize(world_.surface()->state().faired));
 }
 
+/// All is made beside what there is, and put in its place when it is complete.
 void Run::restore(const std::string& bytes) {
   Snapshot s = read_snapshot(bytes);
   if (!fits(s)) throw Error(Fault::input, foreign);
-  finished_ = std::move(s.finished);
-  if (s.stage != stage_ || surface_) {
-    warnings_.clear();
-    enter_stage(s.stage, surface_ ? as_points(s.start[0]) : program().shape.points);
-  }
-  state_ = std::move(s.state);
-  if (surface_) {
+  World world = world_.unmoved();
+  if (world.surface()) world.place(as_points(s.began_at[0]));
+  std::vector<std::string> warnings = program_->warnings;
+  std::unique_ptr<Stage> stage = begin(s.stage, world, s.finished, warnings);
+  stage->state = std::move(s.state);
+  if (world.surface()) {
+    stage->began_at = as_points(s.began_at[0]);
     s.surface.faired = as_points(s.faired[0]);
-    surface_->restore(std::move(s.surface));
-    operators_->place(program(), surface_->points());
-    stepper_ = make_stepper(program().stepper);
+    world.restore(std::move(s.surface));
+    stage->equations = StageSystem(program_->stages[s.stage], world.shared_space(), stage->material);
   }
-  step_ = s.step;
-  summary_ = {};
-  summary_.time = state_.time;
-  summary_.steps = state_.step;
-  summary_.step = step_;
-  summary_.change = s.change;
-  check_stop();
+  stage->step = s.step;
+  stage->summary = {};
+  stage->summary.time = stage->state.time;
+  stage->summary.steps = stage->state.step;
+  stage->summary.step = s.step;
+  stage->summary.change = s.change;
+  check_stop(program_->stages[s.stage], world, *stage);
+  world_ = std::move(world);
+  stage_ = s.stage;
+  finished_ = std::move(s.finished);
+  now_ = std::move(stage);
+  warnings_ = std::move(warnings);
 }
 
 }  // namespace pelage

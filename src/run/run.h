@@ -4,11 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "base/progress.h"
-#include "look/dress.h"
-#include "run/moving_surface.h"
-#include "run/operators.h"
-#include "run/program.h"
+#include "look/coat_fields.h"
+#include "run/stage_system.h"
+#include "run/world.h"
 #include "time/stepper.h"
 
 namespace pelage {
@@ -37,17 +35,18 @@ struct RunSummary {
 
 class Run {
  public:
-  /// Builds the operators and the initial state; throws Error as the parts do.
+  /// Makes the world and begins the first stage; throws Error as the parts do. `progress` is told of this and of the
+  /// beginning of later stages, in advance(); where it asks to stop, Error(Fault::cancelled) leaves the run as it was.
   explicit Run(Program program, const Progress& progress = {});
-  /// Several stages on one shape, which the first one brings.
-  explicit Run(std::vector<Program> stages, const Progress& progress = {});
+  /// In a world that is there already.
+  Run(std::shared_ptr<const Program> program, World world, const Progress& progress = {});
   ~Run();
   Run(Run&&) noexcept;
 
   bool done() const;
   /// Up to `steps` steps, fewer if the run is done before.
   const RunSummary& advance(std::int64_t steps);
-  const RunSummary& summary() const { return summary_; }
+  const RunSummary& summary() const;
   /// Fraction of the way to the end, as far as it is known.
   double fraction() const;
 
@@ -55,38 +54,47 @@ class Run {
   /// mesh carries. Never removed while the run goes on.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// The stage in progress, or the last one.
-  const Program& program() const { return stages_[stage_]; }
+  const Program& program() const { return *program_; }
+  const World& world() const { return world_; }
+  const Space& space() const { return world_.space(); }
+  /// Number of the stage in progress, or of the last one; and what it is.
   std::size_t stage() const { return stage_; }
+  const StageProgram& stage_program() const { return program_->stages[stage_]; }
+  const System& system() const;
+  const std::vector<Vector>& coefficients() const;
+  /// Those that the stage began with.
+  std::vector<Vector> initial() const;
   struct FinishedStage {
     std::vector<Vector> fields;  ///< coefficients per species
     RunSummary summary;
   };
   /// The stages before that.
   const std::vector<FinishedStage>& finished() const { return finished_; }
-  const std::vector<Program>& stages() const { return stages_; }
-  const Operators& operators() const { return *operators_; }
-  const std::vector<Vector>& coefficients() const { return state_.now; }
-  /// Null when the surface stays where it is.
-  const MovingSurface* surface() const { return surface_.get(); }
+
+  /// Range of the coefficients of species i over the largest magnitude that they have now or had when the stage began.
+  double contrast(std::size_t i) const;
+  /// Whether no species shows a pattern, see uniform_contrast; and what is likely to have kept it away, in words.
+  bool uniform() const;
+  std::string why_uniform() const;
+
   /// Area integrals of the species [values times world units^2].
   std::vector<double> amounts() const;
-  /// A copy of the fields of all stages, to be dressed; of earlier ones "STAGE.SPECIES".
+  /// The fields of all stages, to be dressed; of earlier ones "STAGE.SPECIES".
   CoatFields fields() const;
 
-  /// Everything that changes, as bytes (little-endian doubles): a run of the same program that restores it continues
-  /// with the same bits.
+  /// Everything that changes, as bytes: a run of the same program that restores it continues with the same bits, on any
+  /// machine that rounds the same.
   std::string checkpoint() const;
-  /// Error(Fault::input) when the bytes are not a checkpoint of such a run.
+  /// Error(Fault::input) when the bytes are not a checkpoint of this program; the run is then as before.
   void restore(const std::string& bytes);
 
  private:
+  struct Stage;
   struct Snapshot;
-  bool stage_done() const { return summary_.status != RunStatus::running; }
-  void begin_stage(const Progress& progress);
-  void warn_about_stage(double stable_step);
+  std::unique_ptr<Stage> begin(std::size_t number, const World& world, const std::vector<FinishedStage>& finished,
+                               std::vector<std::string>& warnings) const;
+  VertexAttributes finished_fields(const Space& space, const std::vector<FinishedStage>& finished) const;
   void next_stage();
-  void enter_stage(std::size_t number, std::vector<Point> points);
   Snapshot read_snapshot(const std::string& bytes) const;
   bool fits(const Snapshot& snapshot) const;
   double next_step() const;
@@ -94,19 +102,20 @@ class Run {
   void keep_amounts(const SparseMatrix& mass_before);
   void accept(const StepReport& report);
   void fail(const StepReport& report);
-  void check_stop();
+  static void check_stop(const StageProgram& program, const World& world, Stage& stage);
 
-  std::vector<Program> stages_;
+  std::shared_ptr<const Program> program_;
+  World world_;
+  Progress progress_;
   std::size_t stage_ = 0;
   std::vector<FinishedStage> finished_;
-  std::unique_ptr<Operators> operators_;
-  std::unique_ptr<MovingSurface> surface_;
-  std::unique_ptr<Stepper> stepper_;
-  State state_;
+  std::unique_ptr<Stage> now_;
   std::vector<std::string> warnings_;
-  double step_ = 0;
-  RunSummary summary_;
 };
+
+/// Below this contrast a field counts as uniform. The forcing of a model (a slightly uneven substrate, say) shows
+/// contrasts of up to a percent without a pattern; the faintest pattern of a shipped model has several.
+inline constexpr double uniform_contrast = 0.02;
 
 /// 2 pi sqrt(<u', M u'> / <u', K u'>) with u' the deviation from the mean: the wavelength of a single wave, and between
 /// the wavelength of the spots and that of their harmonics for sharp spots. World units.

@@ -9,19 +9,6 @@ namespace {
 
 using std::numbers::pi;
 
-std::vector<Triangle> split_triangles(const Topology& t) {
-  std::vector<Triangle> fine;
-  fine.reserve(4 * t.triangles.size());
-  for (std::size_t f = 0; f < t.triangles.size(); ++f) {
-    const auto [a, b, c] = t.triangles[f];
-    const Index ab = t.vertex_count + t.edge[3 * f];
-    const Index bc = t.vertex_count + t.edge[3 * f + 1];
-    const Index ca = t.vertex_count + t.edge[3 * f + 2];
-    fine.insert(fine.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {bc, ca, ab}});
-  }
-  return fine;
-}
-
 void add_vertex_row(Stencils& s, Index v, const std::vector<Index>& ring, bool boundary) {
   if (ring.empty()) {  // an isolated vertex stays where it is
     s.add(v, 1);
@@ -115,6 +102,19 @@ double loop_beta(Index valence) {
   const auto n = static_cast<double>(valence);
   const double c = 3.0 / 8 + std::cos(2 * pi / n) / 4;
   return (5.0 / 8 - c * c) / n;
+}
+
+std::vector<Triangle> split_triangles(const Topology& t) {
+  std::vector<Triangle> fine;
+  fine.reserve(4 * t.triangles.size());
+  for (std::size_t f = 0; f < t.triangles.size(); ++f) {
+    const auto [a, b, c] = t.triangles[f];
+    const Index ab = t.vertex_count + t.edge[3 * f];
+    const Index bc = t.vertex_count + t.edge[3 * f + 1];
+    const Index ca = t.vertex_count + t.edge[3 * f + 2];
+    fine.insert(fine.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {bc, ca, ab}});
+  }
+  return fine;
 }
 
 Refinement loop_refine(const Topology& t) {

@@ -17,6 +17,9 @@ struct Refinement {
 /// Loop's rules. The limit surface of the refined mesh is that of the coarse mesh.
 Refinement loop_refine(const Topology& topology);
 
+/// The triangles of the refined mesh.
+std::vector<Triangle> split_triangles(const Topology& topology);
+
 /// The same connectivity with midpoints on the edges: keeps the flat triangles.
 Refinement midpoint_refine(const Topology& topology);
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pelage/error.h"
+#include "shape/loop_subdivision.h"
 
 namespace pelage {
 
@@ -42,6 +42,20 @@ std::vector<double> split_corner_values(const std::vector<double>& values, std::
   return fine;
 }
 
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// Calls set(vertex, a, b) for every vertex of the fine mesh, which lies in the middle between a and b of the coarse
+/// one; these are the same where it is one of them.
+template <class Set>
+void for_each_split_vertex(const Topology& t, Set&& set) {
+  for (Index v = 0; v < t.vertex_count; ++v) set(at(v), at(v), at(v));
+  for (std::size_t h = 0; h < t.twin.size(); ++h) {
+    const auto halfedge = static_cast<Index>(h);
+    if (t.twin[h] >= 0 && t.twin[h] < halfedge) continue;
+    set(at(t.vertex_count) + at(t.edge[h]), at(t.origin(halfedge)), at(t.target(halfedge)));
+  }
+}
+
 }  // namespace
 
 double prevailing_edge(const std::vector<Triangle>& triangles, const std::vector<Point>& points) {
@@ -61,31 +75,37 @@ double prevailing_edge(const std::vector<Triangle>& triangles, const std::vector
   return 0;
 }
 
-RefinedMesh refine_once(const RefinedMesh& mesh, bool loop) {
-  const Refinement fine = loop ? loop_refine(mesh.topology) : midpoint_refine(mesh.topology);
-  return {make_topology(fine.stencils.rows(), fine.triangles), combine(fine.stencils, mesh.control), mesh.levels + 1};
+// 0.0 + takes the sign off zeros.
+
+std::vector<double> split_values(const Topology& coarse, const std::vector<double>& values, std::size_t components) {
+  std::vector<double> fine((static_cast<std::size_t>(coarse.vertex_count) + at(coarse.edge_count)) * components);
+  const auto set = [&](std::size_t vertex, std::size_t a, std::size_t b) {
+    for (std::size_t c = 0; c < components; ++c)
+      fine[vertex * components + c] = 0.0 + 0.5 * values[a * components + c] + 0.5 * values[b * components + c];
+  };
+  for_each_split_vertex(coarse, set);
+  return fine;
 }
 
-RefinedMesh refine_to_edge(RefinedMesh mesh, double edge, bool loop, std::size_t max_triangles) {
-  while (prevailing_edge(mesh.topology.triangles, mesh.control) > edge) {
-    if (4 * mesh.topology.triangles.size() > max_triangles)
-      throw Error(Fault::input, "the pattern is too fine for this shape: it needs more than " +
-                                    std::to_string(max_triangles) + " triangles; ask for a larger --size");
-    mesh = refine_once(mesh, loop);
-  }
-  return mesh;
+std::vector<Point> split_points(const Topology& coarse, const std::vector<Point>& points) {
+  std::vector<Point> fine(at(coarse.vertex_count) + at(coarse.edge_count));
+  const auto set = [&](std::size_t vertex, std::size_t a, std::size_t b) {
+    for (std::size_t k = 0; k < 3; ++k) fine[vertex][k] = 0.0 + 0.5 * points[a][k] + 0.5 * points[b][k];
+  };
+  for_each_split_vertex(coarse, set);
+  return fine;
 }
 
-void refine_attribute(Attribute& attribute, const Refinement& midpoints) {
+void split_attribute(const Topology& coarse, Attribute& attribute) {
   const auto components = static_cast<std::size_t>(attribute.components);
-  attribute.values = attribute.domain == Domain::vertex ? combine(midpoints.stencils, attribute.values, components)
+  attribute.values = attribute.domain == Domain::vertex ? split_values(coarse, attribute.values, components)
                                                         : split_corner_values(attribute.values, components);
 }
 
 TriangleMesh split_at_midpoints(const TriangleMesh& mesh) {
-  const Refinement fine = midpoint_refine(make_topology(mesh.points.size(), mesh.triangles));
-  TriangleMesh result{combine(fine.stencils, mesh.points), fine.triangles, mesh.attributes};
-  for (Attribute& a : result.attributes) refine_attribute(a, fine);
+  const Topology coarse = make_topology(mesh.points.size(), mesh.triangles);
+  TriangleMesh result{split_points(coarse, mesh.points), split_triangles(coarse), mesh.attributes};
+  for (Attribute& a : result.attributes) split_attribute(coarse, a);
   return result;
 }
 

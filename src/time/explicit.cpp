@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "base/dense.h"
 #include "time/step_support.h"
 
 namespace pelage {
@@ -21,7 +22,7 @@ class ForwardEuler final : public Stepper {
       next_[i] = state.now[i];
       if (species.algebraic) continue;
       StepMatrix& mass = species.mass ? own_mass_[i] : mass_;
-      mass.update(mass_of(system, i), 1, *species.stiffness, 0, species.revision, system.held);
+      mass.update(mass_of(system, i), 1, species.stiffness, 0);
       rhs_ = system.sampling->transposed * Vector(weight_of(system, i).cwiseProduct(rates_[i]));
       if (species.coupled) {
         subtract_fluxes(system, state, i);
@@ -30,7 +31,7 @@ class ForwardEuler final : public Stepper {
         axpby(-species.diffusion, flux_, 1, rhs_);
       }
       slope_.setZero(rhs_.size());
-      mass.solve(rhs_, slope_, species.name, request.solver_tolerance, report);
+      mass.solve(rhs_, slope_, system.held.get(), species.name, request.solver_tolerance, report);
       axpby(request.dt, slope_, 1, next_[i]);
     }
     if (!system.coupled.index.empty())
@@ -59,8 +60,26 @@ class ForwardEuler final : public Stepper {
   Vector rhs_, flux_, slope_;
 };
 
+/// Algebraic species follow without delay.
+Eigen::MatrixXd amplification(const Linearisation& l, double dt, const Eigen::MatrixXd& decay) {
+  const Eigen::MatrixXd evolving = l.evolving.asDiagonal();
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(decay.rows(), decay.rows());
+  // Rows of algebraic species: (1 + mu D) w' = (dR/du) u', all taken at the new time.
+  const Eigen::MatrixXd follow = one - (one - evolving) * (one + l.jacobian - decay);
+  return solved(follow, evolving * (one + dt * (l.jacobian - decay)));
+}
+
 }  // namespace
 
-std::unique_ptr<Stepper> make_explicit() { return std::make_unique<ForwardEuler>(); }
+constexpr StepperKind explicit_euler = {
+    .name = "explicit",
+    .alias = "",
+    .make = []() -> std::unique_ptr<Stepper> { return std::make_unique<ForwardEuler>(); },
+    .samples = SampleRule::vertices,
+    .adaptive = false,
+    .couples = true,
+    .holds = true,
+    .keeps_rates = false,
+    .amplification = amplification};
 
 }  // namespace pelage

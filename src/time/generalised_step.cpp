@@ -33,10 +33,10 @@ StepReport generalised_step(const Assembler& assembler, const std::vector<Point>
   SparseMatrix matrix;
   combine(1, mass, dt * (pde.c0.empty() ? pde.c0_constant : 1), stiffness, matrix);
   if (!pde.c2.empty()) combine(1, matrix, -dt, assembler.mass(control, over_c0(pde.c2, pde.c0)), matrix);
-  const Vector inverse_diagonal = diagonal(matrix).cwiseInverse();
+  const Jacobi preconditioner(diagonal(matrix));
   StepReport report;
   Eigen::MatrixXd result = u;
-  ConjugateGradient solver;
+  ConjugateGradientWork<Vector> work;
   for (Eigen::Index k = 0; k < u.cols() && report.failure.empty(); ++k) {
     Vector b = mass * Vector(u.col(k));
     if (pde.c3.size() > 0) {
@@ -45,7 +45,7 @@ StepReport generalised_step(const Assembler& assembler, const std::vector<Point>
       b += dt * load(sampling, source);
     }
     Vector x = result.col(k);
-    note_solve(solver.solve(matrix, inverse_diagonal, b, x, {.tolerance = solver_tolerance}),
+    note_solve(conjugate_gradient(matrix, preconditioner, b, x, nullptr, {.tolerance = solver_tolerance}, work),
                "component " + std::to_string(k), report);
     result.col(k) = x;
   }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense.h"
 #include "base/parallel.h"
 #include "time/step_support.h"
 
@@ -143,9 +144,8 @@ void Sbdf2::solve_coupled(const System& system, const State& state, const Scheme
     first_guess(system, state, i, dt);
     x.push_back(std::move(next_[i]));
   }
-  coupled_.update(*system.mass, *c.stiffness, flux);
-  note_solve(coupled_.solve(*c.stiffness, b, x, {.tolerance = request.solver_tolerance}), coupled_names(system),
-             report);
+  coupled_.update(system.mass, c.stiffness, flux);
+  note_solve(coupled_.solve(b, x, {.tolerance = request.solver_tolerance}), coupled_names(system), report);
   for (std::size_t k = 0; k < c.index.size(); ++k) next_[c.index[k]] = std::move(x[k]);
 }
 
@@ -164,11 +164,10 @@ StepReport Sbdf2::step(const System& system, State& state, const StepRequest& re
   for (std::size_t i = 0; i < system.species.size(); ++i) {
     const Species& species = system.species[i];
     if (species.coupled) continue;
-    matrices_[i].update(mass_of(system, i), s.alpha, *species.stiffness, dt * species.diffusion, species.revision,
-                        system.held);
+    matrices_[i].update(mass_of(system, i), s.alpha, species.stiffness, dt * species.diffusion);
     right_hand_side(system, s, i);
     first_guess(system, state, i, dt);
-    matrices_[i].solve(rhs_, next_[i], species.name, request.solver_tolerance, report);
+    matrices_[i].solve(rhs_, next_[i], system.held.get(), species.name, request.solver_tolerance, report);
   }
   if (!system.coupled.index.empty()) solve_coupled(system, state, s, request, report);
   if (report.failure.empty()) {
@@ -180,8 +179,33 @@ StepReport Sbdf2::step(const System& system, State& state, const StepRequest& re
   return report;
 }
 
+/// On the amplitudes of two states.
+Eigen::MatrixXd amplification(const Linearisation& l, double dt, const Eigen::MatrixXd& decay) {
+  using Eigen::MatrixXd;
+  const Eigen::Index n = l.jacobian.rows();
+  const MatrixXd one = MatrixXd::Identity(n, n);
+  const Eigen::VectorXd algebraic = Eigen::VectorXd::Ones(n) - l.evolving;
+  const MatrixXd evolving = l.evolving.asDiagonal(), scale = (dt * l.evolving + algebraic).asDiagonal();
+  // The Jacobian of an algebraic species is that of its formula minus itself, and only the formula is extrapolated.
+  const MatrixXd rates = scale * (l.jacobian + MatrixXd(algebraic.asDiagonal()));
+  const MatrixXd implicit = 1.5 * evolving + MatrixXd(algebraic.asDiagonal()) + scale * decay;
+  MatrixXd g = MatrixXd::Zero(2 * n, 2 * n);
+  g.topLeftCorner(n, n) = solved(implicit, 2 * evolving + 2 * rates);
+  g.topRightCorner(n, n) = -solved(implicit, 0.5 * evolving + rates);
+  g.bottomLeftCorner(n, n) = one;
+  return g;
+}
+
 }  // namespace
 
-std::unique_ptr<Stepper> make_sbdf2() { return std::make_unique<Sbdf2>(); }
+constexpr StepperKind sbdf2 = {.name = "sbdf2",
+                               .alias = "",
+                               .make = []() -> std::unique_ptr<Stepper> { return std::make_unique<Sbdf2>(); },
+                               .samples = SampleRule::vertices,
+                               .adaptive = true,
+                               .couples = true,
+                               .holds = true,
+                               .keeps_rates = true,
+                               .amplification = amplification};
 
 }  // namespace pelage

@@ -15,13 +15,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-struct Linearisation {
-  MatrixXd jacobian, diffusion;
-  VectorXd c2;        ///< the implicit part of the paper's scheme
-  VectorXd evolving;  ///< 1, or 0 for an algebraic species
-  double growth = 0;  ///< of the fastest mode, at least 0
-};
-
 /// C2 of every species at a uniform state, curvatures and attributes being 0.
 VectorXd split_at(const Model& model, const std::vector<double>& state) {
   const std::vector<Point> place = {Point{}};
@@ -46,44 +39,13 @@ VectorXd split_at(const Model& model, const std::vector<double>& state) {
   return Eigen::Map<VectorXd>(c2.data(), static_cast<Eigen::Index>(n));
 }
 
-/// One step of the explicit scheme, by which algebraic species follow without delay.
-MatrixXd explicit_step(const Linearisation& l, double dt, const MatrixXd& decay) {
-  const MatrixXd evolving = l.evolving.asDiagonal();
-  const MatrixXd one = MatrixXd::Identity(decay.rows(), decay.rows());
-  // Rows of algebraic species: (1 + mu D) w' = (dR/du) u', all taken at the new time.
-  const MatrixXd follow = one - (one - evolving) * (one + l.jacobian - decay);
-  return solved(follow, evolving * (one + dt * (l.jacobian - decay)));
-}
-
-/// One step of the scheme for a wave with k^2 = mu, as a matrix on the amplitudes (of two steps for sbdf2).
-MatrixXd amplification(const Linearisation& l, const std::string& stepper, double dt, double mu) {
-  const Eigen::Index n = l.jacobian.rows();
-  const MatrixXd one = MatrixXd::Identity(n, n);
-  const MatrixXd decay = mu * l.diffusion;
-  if (stepper == "explicit") return explicit_step(l, dt, decay);
-  if (stepper == "paper") {
-    const MatrixXd c2 = l.c2.asDiagonal();
-    return solved(one - dt * c2 + dt * decay, one + dt * (l.jacobian - c2));
-  }
-  const VectorXd algebraic = VectorXd::Ones(n) - l.evolving;
-  const MatrixXd evolving = l.evolving.asDiagonal(), scale = (dt * l.evolving + algebraic).asDiagonal();
-  // The Jacobian of an algebraic species is that of its formula minus itself, and only the formula is extrapolated.
-  const MatrixXd rates = scale * (l.jacobian + MatrixXd(algebraic.asDiagonal()));
-  const MatrixXd implicit = 1.5 * evolving + MatrixXd(algebraic.asDiagonal()) + scale * decay;
-  MatrixXd g = MatrixXd::Zero(2 * n, 2 * n);
-  g.topLeftCorner(n, n) = solved(implicit, 2 * evolving + 2 * rates);
-  g.topRightCorner(n, n) = -solved(implicit, 0.5 * evolving + rates);
-  g.bottomLeftCorner(n, n) = one;
-  return g;
-}
-
-bool stable(const Linearisation& l, const std::string& stepper, double dt, double largest_k2) {
+bool stable(const Linearisation& l, const StepperKind& stepper, double dt, double largest_k2) {
   // The schemes are first-order at least: round-off and the truncation of exp() stay within the allowance.
   const double allowed = std::exp(1.5 * dt * l.growth) * (1 + 1e-6);
   constexpr int waves = 80;
   for (int i = 0; i <= waves; ++i) {
     const double mu = i == 0 ? 0 : largest_k2 * std::pow(1e-6, 1 - static_cast<double>(i) / waves);
-    const MatrixXd g = amplification(l, stepper, dt, mu);
+    const MatrixXd g = stepper.amplification(l, dt, mu * l.diffusion);
     if (!g.allFinite() || eigenvalues(g).cwiseAbs().maxCoeff() > allowed) return false;
   }
   return true;
@@ -91,7 +53,7 @@ bool stable(const Linearisation& l, const std::string& stepper, double dt, doubl
 
 }  // namespace
 
-double largest_stable_step(const Model& model, const std::string& stepper, double largest_k2) {
+double largest_stable_step(const Model& model, const StepperKind& stepper, double largest_k2) {
   const Stability s = analyse(model);
   if (s.steady_states.empty()) return std::numeric_limits<double>::infinity();
   const auto n = static_cast<Eigen::Index>(model.species_count());

@@ -44,8 +44,8 @@ SolveReport solve_algebraic(const System& system, double t, std::vector<Vector>&
     }
   }
   CoupledSolver solver;
-  solver.update(*system.mass, *c.stiffness, c.diffusion(algebraic, algebraic));
-  const SolveReport report = solver.solve(*c.stiffness, rhs, values, {.tolerance = tolerance});
+  solver.update(system.mass, c.stiffness, c.diffusion(algebraic, algebraic));
+  const SolveReport report = solver.solve(rhs, values, {.tolerance = tolerance});
   for (std::size_t a = 0; a < algebraic.size(); ++a)
     coefficients[c.index[static_cast<std::size_t>(algebraic[a])]] = std::move(values[a]);
   return report;
@@ -77,12 +77,12 @@ void advance(const System& system, State& state, double dt, std::vector<Vector>&
       report.failure = species.name + " grows beyond all bounds at vertex " + std::to_string(bad);
     if (!report.failure.empty()) return;
     next[i] = next[i].cwiseMax(species.lower).cwiseMin(species.upper);
-    report.minimum = std::min(report.minimum, next[i].minCoeff());
-    report.maximum = std::max(report.maximum, next[i].maxCoeff());
+    report.minimum = std::min(report.minimum, minimum(next[i]));
+    report.maximum = std::max(report.maximum, maximum(next[i]));
     if (species.algebraic) continue;  // follows the others, and may come to rest at a constant
     const Vector difference = next[i] - state.now[i];
-    const Vector deviation = next[i].array() - next[i].mean();
-    const double amplitude = std::sqrt(dot(deviation, deviation)), moved = std::sqrt(dot(difference, difference));
+    const Vector deviation = next[i].array() - sum(next[i]) / static_cast<double>(next[i].size());
+    const double amplitude = norm(deviation), moved = norm(difference);
     if (moved > 0) report.change = std::max(report.change, moved / (amplitude * dt));
   }
   std::swap(state.now, next);
@@ -98,24 +98,20 @@ void advance(const System& system, State& state, double dt, std::vector<Vector>&
   report.accepted = true;
 }
 
-void StepMatrix::update(const SparseMatrix& mass, double alpha, const SparseMatrix& stiffness, double beta,
-                        std::uint64_t revision, const std::vector<char>* held) {
-  if (alpha == alpha_ && beta == beta_ && revision == revision_ && matrix_.pattern == mass.pattern) return;
-  combine(alpha, mass, beta, stiffness, matrix_);
-  inverse_diagonal_ = diagonal(matrix_).cwiseInverse();
-  // Vertices without triangles have empty rows.
-  for (double& d : inverse_diagonal_)
-    if (!std::isfinite(d)) d = 1;
-  if (held)
-    for (Eigen::Index i = 0; i < inverse_diagonal_.size(); ++i)
-      if ((*held)[static_cast<std::size_t>(i)]) inverse_diagonal_[i] = 0;
+void StepMatrix::update(const SharedMatrix& mass, double alpha, const SharedMatrix& stiffness, double beta) {
+  if (alpha == alpha_ && beta == beta_ && mass == mass_ && stiffness == stiffness_) return;
+  combine(alpha, *mass, beta, *stiffness, matrix_);
+  preconditioner_ = Jacobi(diagonal(matrix_));
+  mass_ = mass;
+  stiffness_ = stiffness;
   alpha_ = alpha;
   beta_ = beta;
-  revision_ = revision;
 }
 
-void StepMatrix::solve(const Vector& b, Vector& x, const std::string& species, double tolerance, StepReport& report) {
-  note_solve(solver_.solve(matrix_, inverse_diagonal_, b, x, {.tolerance = tolerance}), species, report);
+void StepMatrix::solve(const Vector& b, Vector& x, const Held* held, const std::string& species, double tolerance,
+                       StepReport& report) {
+  note_solve(conjugate_gradient(matrix_, preconditioner_, b, x, held, {.tolerance = tolerance}, work_), species,
+             report);
 }
 
 void note_solve(const SolveReport& solve, const std::string& names, StepReport& report) {

@@ -18,21 +18,21 @@ SolveReport solve_algebraic(const System& system, double t, std::vector<Vector>&
 /// Moves the state to `next` (applying the clamps) unless it is not finite, and fills in change, minimum and maximum.
 void advance(const System& system, State& state, double dt, std::vector<Vector>& next, StepReport& report);
 
-/// alpha M + beta K_i for one species, kept while alpha, beta and the revision of the matrices stay the same. Where
-/// `held` is set, unknowns keep the value of the first guess.
+/// alpha M + beta K_i for one species, kept while alpha, beta and the matrices stay the same.
 class StepMatrix {
  public:
-  void update(const SparseMatrix& mass, double alpha, const SparseMatrix& stiffness, double beta,
-              std::uint64_t revision = 0, const std::vector<char>* held = nullptr);
-  /// Solves for one right-hand side; x holds the first guess. Updates iterations, residual and failure of the report.
-  void solve(const Vector& b, Vector& x, const std::string& species, double tolerance, StepReport& report);
+  void update(const SharedMatrix& mass, double alpha, const SharedMatrix& stiffness, double beta);
+  /// Solves for one right-hand side; x holds the first guess, which `held` unknowns keep. Updates iterations, residual
+  /// and failure of the report.
+  void solve(const Vector& b, Vector& x, const Held* held, const std::string& species, double tolerance,
+             StepReport& report);
 
  private:
+  SharedMatrix mass_, stiffness_;
+  double alpha_ = 0, beta_ = 0;
   SparseMatrix matrix_;
-  Vector inverse_diagonal_;
-  double alpha_ = 0, beta_ = -1;
-  std::uint64_t revision_ = 0;
-  ConjugateGradient solver_;
+  Jacobi<Vector> preconditioner_;
+  ConjugateGradientWork<Vector> work_;
 };
 
 /// `names`: of the species that were solved for.

@@ -3,8 +3,11 @@
 
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 
+#include "time/linearisation.h"
 #include "time/system.h"
 
 namespace pelage {
@@ -33,17 +36,27 @@ class Stepper {
   virtual StepReport step(const System& system, State& state, const StepRequest& request) = 0;
 };
 
-/// By name:
-///   "sbdf2"     second-order semi-implicit backward differences, variable step (Ruuth 1995; Wang, Ruuth 2008)
-///   "paper"     eqs. (14)-(15) of Bajaj, Zhang, Xu 2008: reaction split as C2(u^n) u^(n+1) + C3(u^n), first order; not
-///               for coupled species
-///   "explicit"  forward Euler
-/// Error(Fault::usage) otherwise.
-std::unique_ptr<Stepper> make_stepper(const std::string& name);
-std::vector<std::string> stepper_names();
+/// What the rest of the program knows of a stepper.
+struct StepperKind {
+  std::string_view name;
+  std::string_view alias;  ///< an older name, or empty
+  std::unique_ptr<Stepper> (*make)();
+  SampleRule samples;  ///< where it evaluates the reaction
+  bool adaptive;       ///< reports an error by which the step is chosen; else steps have to stay below the limit of
+                       ///< linear stability
+  bool couples;        ///< grows species that are linked by lap()
+  bool holds;          ///< heeds System::held
+  bool keeps_rates;    ///< State::past_rates
+  Amplification* amplification;  ///< of a wave, see time/linearisation.h
+};
 
-std::unique_ptr<Stepper> make_sbdf2();
-std::unique_ptr<Stepper> make_paper();
-std::unique_ptr<Stepper> make_explicit();
+extern const StepperKind sbdf2;           ///< second-order semi-implicit backward differences, variable step (Ruuth
+                                          ///< 1995; Wang, Ruuth 2008)
+extern const StepperKind semi_implicit;   ///< semi-implicit Euler, eqs. (14)-(15) of Bajaj, Zhang, Xu 2008: reaction
+                                          ///< split as C2(u^n) u^(n+1) + C3(u^n), first order
+extern const StepperKind explicit_euler;  ///< forward Euler
+
+/// Those that come with the program, the default first.
+std::span<const StepperKind* const> stepper_kinds();
 
 }  // namespace pelage

@@ -6,10 +6,12 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "discretise/sampling.h"
+#include "linalg/conjugate_gradient.h"
 #include "linalg/sparse.h"
 
 namespace pelage {
@@ -24,7 +26,7 @@ struct Reaction {
   std::function<void(const FieldPointers& u, double t, std::size_t begin, std::size_t end,
                      const MutableFieldPointers& rate)>
       rates;
-  /// R_i = c2_i u_i + c3_i, the split of eq. (2) that the paper's semi-implicit scheme needs.
+  /// R_i = c2_i u_i + c3_i, the split of eq. (2) that the semi-implicit Euler scheme needs.
   std::function<void(const FieldPointers& u, double t, std::size_t begin, std::size_t end,
                      const MutableFieldPointers& c2, const MutableFieldPointers& c3)>
       split;
@@ -33,13 +35,12 @@ struct Reaction {
 struct Species {
   std::string name;
   double diffusion = 0;  ///< D >= 0 [length^2/time]; multiplies `stiffness`
-  const SparseMatrix* stiffness = nullptr;
-  /// Where C0 varies: mass matrix and sample weights of this species, divided by C0 (eqs (9)-(11) of the paper);
-  /// otherwise those of the system hold.
-  const SparseMatrix* mass = nullptr;
-  const Vector* weight = nullptr;
-  std::uint64_t revision = 0;  ///< another one whenever these matrices or `stiffness` have got other values
-  bool coupled = false;        ///< part of System::coupled, which then holds the diffusion instead
+  SharedMatrix stiffness;
+  /// Where C0 varies: mass matrix and sample weights of this species, divided by C0 (eqs (9)-(11) of the paper); null:
+  /// those of the system.
+  SharedMatrix mass;
+  SharedVector weight;
+  bool coupled = false;  ///< part of System::coupled, which then holds the diffusion instead
   bool algebraic = false;
   double lower = -std::numeric_limits<double>::infinity();  ///< clamps of the coefficients after a step; as the basis
   double upper = std::numeric_limits<double>::infinity();   ///< functions are non-negative they bound the field too
@@ -49,27 +50,26 @@ struct Species {
 struct CoupledSpecies {
   std::vector<std::size_t> index;  ///< into System::species; empty when there are none
   Eigen::MatrixXd diffusion;       ///< D_ij [length^2/time; length^2 in algebraic rows], row and column k: index[k]
-  const SparseMatrix* stiffness = nullptr;  ///< of unit diffusion
+  SharedMatrix stiffness;          ///< of unit diffusion
 };
 
-/// Borrowed for one step.
 struct System {
-  const SparseMatrix* mass = nullptr;  ///< = values' W values of `sampling`
-  const Sampling* sampling = nullptr;
+  SharedMatrix mass;  ///< = values' W values of `sampling`
+  std::shared_ptr<const Sampling> sampling;
   std::vector<Species> species;
   CoupledSpecies coupled;
-  const std::vector<char>* held = nullptr;  ///< coefficients that stay as they are, of all species; null: none
+  std::shared_ptr<const Held> held;  ///< coefficients that stay as they are, of all species; null: none
   Reaction reaction;
-  /// Mass matrix weighted by a factor at the samples; only the semi-implicit stepper of the paper needs it.
+  /// Mass matrix weighted by a factor at the samples; only semi-implicit Euler needs it.
   std::function<SparseMatrix(const Vector& factor)> weighted_mass;
 };
 
-inline const SparseMatrix& mass_of(const System& system, std::size_t species) {
-  const SparseMatrix* own = system.species[species].mass;
-  return own ? *own : *system.mass;
+inline const SharedMatrix& mass_of(const System& system, std::size_t species) {
+  const SharedMatrix& own = system.species[species].mass;
+  return own ? own : system.mass;
 }
 inline const Vector& weight_of(const System& system, std::size_t species) {
-  const Vector* own = system.species[species].weight;
+  const SharedVector& own = system.species[species].weight;
   return own ? *own : system.sampling->weight;
 }
 

@@ -85,7 +85,7 @@ struct Errors {
 };
 
 Errors solve_and_measure(const TriangleMesh& mesh, const ExactSolution& exact) {
-  const Problem p = make_problem(mesh, "loop", true);
+  const Problem p = make_problem(mesh, make_loop, true);
   const Sampling s = quadrature_sampling(p.discretisation, p.control);
   Vector f(s.count());
   for (Eigen::Index q = 0; q < f.size(); ++q) f[q] = exact.right_side(s.position[static_cast<std::size_t>(q)]);

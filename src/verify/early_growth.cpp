@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "base/random.h"
+#include "catalog/bind.h"
 #include "catalog/models.h"
-#include "catalog/resolve.h"
 #include "react/stability.h"
 #include "run/run.h"
 #include "shape/generators.h"
@@ -28,7 +28,7 @@ Program program_on_sphere(const std::string& model, int vertices, double waves) 
     if (p.name == "unevenness") recipe.stages[0].parameters.push_back({p.name, 0, {}});
   recipe.stages[0].size = Given<Length>{{2 * std::numbers::pi / waves, false}, {}};
   recipe.stages[0].interpolate = true;
-  return resolve(recipe, builtin_shape("builtin:sphere?n=" + std::to_string(vertices))).front();
+  return make_program(recipe, builtin_shape("builtin:sphere?n=" + std::to_string(vertices)));
 }
 
 /// The lengths of a run whose waves grow at rates around `growth`.
@@ -40,7 +40,7 @@ struct Schedule {
 Schedule schedule(const Model& model, const Stability& stability, double largest_k2) {
   // Where nothing grows (a marginal system), the decay of the uniform deviation sets the pace.
   const double pace = std::max(stability.growth, std::abs(growth_rate(stability, 0).real()));
-  const double stable = 0.5 * largest_stable_step(model, "sbdf2", largest_k2);
+  const double stable = 0.5 * largest_stable_step(model, sbdf2, largest_k2);
   // The scheme amplifies oscillations of angular frequency w at a rate of about w (w dt)^3.
   const double turn = std::abs(stability.eigenvalues.front().imag());
   const double dt = std::min({0.02 / pace, stable, turn > 0 ? 0.1 / turn : stable});
@@ -49,11 +49,11 @@ Schedule schedule(const Model& model, const Stability& stability, double largest
   return {dt, static_cast<int>(std::ceil(2.5 / (pace * dt))), static_cast<int>(std::ceil(4 / (pace * dt)))};
 }
 
-State noisy_steady_state(const Operators& operators, const std::vector<double>& steady_state) {
+State noisy_steady_state(const System& system, const std::vector<double>& steady_state) {
   constexpr double amplitude = 1e-7;  // quadratic terms stay below a thousandth after growing e^6.5 times
   State state;
   for (std::size_t s = 0; s < steady_state.size(); ++s) {
-    state.now.push_back(Vector::Constant(operators.system().mass->rows(), steady_state[s]));
+    state.now.push_back(Vector::Constant(system.mass->rows(), steady_state[s]));
     for (Eigen::Index i = 0; i < state.now[s].size(); ++i)
       state.now[s][i] += amplitude * (uniform(1 + s, static_cast<std::uint64_t>(i)) - 0.5);
   }
@@ -75,11 +75,10 @@ std::vector<double> deviation_power(const Sampling& sampling, const std::vector<
 
 /// Growth rate of each degree, from the power before and after `measured` steps; minus infinity where too little is
 /// left.
-std::vector<double> growth_rates(const Operators& operators, const std::vector<double>& steady_state,
+std::vector<double> growth_rates(const System& system, const std::vector<double>& steady_state,
                                  const Schedule& schedule, int max_degree) {
-  const System& system = operators.system();
-  State state = noisy_steady_state(operators, steady_state);
-  const auto stepper = make_stepper("sbdf2");
+  State state = noisy_steady_state(system, steady_state);
+  const auto stepper = sbdf2.make();
   auto advance = [&](int steps) {
     for (int k = 0; k < steps; ++k) stepper->step(system, state, {.dt = schedule.dt, .solver_tolerance = 1e-12});
     return deviation_power(*system.sampling, state.now, steady_state, max_degree);
@@ -115,16 +114,18 @@ double parameter(const Model& model, const std::string& name) {
 
 EarlyGrowth measure_early_growth(const std::string& model, int vertices, double waves) {
   Program program = program_on_sphere(model, vertices, waves);
-  const Stability stability = analyse(program.model);
+  StageProgram& stage = program.stages[0];
+  const Stability stability = analyse(stage.model);
   if (!stability.wavelength)
     throw Error(Fault::usage, "model \"" + model + "\" has no uniform state with a fastest growing wave");
-  program.length_unit = program.size / *stability.wavelength;  // the file's own wavelength is that of finished patterns
-  const Operators operators(program, {});
-  const double unit = program.length_unit;
-  const Schedule times = schedule(program.model, stability, operators.largest_k2() * unit * unit);
+  stage.length_unit = stage.size / *stability.wavelength;  // the file's own wavelength is that of finished patterns
+  const double unit = stage.length_unit;
+  const Run run(std::move(program));
+  const System& system = run.system();
+  const double k2 = largest_k2(*system.mass, *run.space().stiffness());
+  const Schedule times = schedule(run.stage_program().model, stability, k2 * unit * unit);
   EarlyGrowth result;
-  result.rate =
-      growth_rates(operators, stability.steady_states[stability.chosen], times, static_cast<int>(1.6 * waves));
+  result.rate = growth_rates(system, stability.steady_states[stability.chosen], times, static_cast<int>(1.6 * waves));
   for (std::size_t l = 0; l < result.rate.size(); ++l)
     result.wave_number.push_back(wave_number(static_cast<double>(l)) * unit);
   result.wavelength = 2 * std::numbers::pi / (fastest_wave_number(result.rate) * unit);

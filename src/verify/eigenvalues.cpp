@@ -76,8 +76,8 @@ std::array<double, 3> relative_errors(const Vector& eigenvalues) {
 
 std::vector<Figure> verify_eigenvalues() {
   const TriangleMesh sphere = builtin_shape("builtin:sphere?n=2562");
-  const auto loop = relative_errors(smallest_eigenvalues(make_problem(sphere, "loop", true)));
-  const auto linear = relative_errors(smallest_eigenvalues(make_problem(sphere, "linear", false)));
+  const auto loop = relative_errors(smallest_eigenvalues(make_problem(sphere, make_loop, true)));
+  const auto linear = relative_errors(smallest_eigenvalues(make_problem(sphere, make_linear, false)));
   std::vector<Figure> figures;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string degree = std::to_string(i + 1);

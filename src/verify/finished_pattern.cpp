@@ -19,7 +19,7 @@ double deviation(const Sampling& sampling, const Vector& samples) {
   return std::sqrt(dot(sampling.weight, difference.cwiseProduct(difference)) / sampling.weight.sum());
 }
 
-Vector shown_samples(const Run& run) { return run.operators().system().sampling->values * run.coefficients().back(); }
+Vector shown_samples(const Run& run) { return run.system().sampling->values * run.coefficients().back(); }
 
 std::size_t fastest_species(const System& system) {
   const auto& species = system.species;
@@ -45,13 +45,13 @@ double spectral_wavelength(const Sampling& sampling, const Vector& coefficients)
 
 FinishedPattern finish_pattern(Program program) {
   constexpr std::int64_t many = 1'000'000'000;
-  const double length_unit = program.length_unit;
+  const double length_unit = program.stages.back().length_unit;
   Run run(std::move(program));
   const double largest_at_start = shown_samples(run).cwiseAbs().maxCoeff();
   FinishedPattern result;
   result.status = run.advance(many).status;
   result.message = run.summary().message;
-  const System& system = run.operators().system();
+  const System& system = run.system();
   const Vector shown = shown_samples(run);
   const double largest = std::max(largest_at_start, shown.cwiseAbs().maxCoeff());
   result.contrast = largest > 0 ? deviation(*system.sampling, shown) / largest : 0;

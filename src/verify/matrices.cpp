@@ -29,7 +29,7 @@ double asymmetry(const SparseMatrix& a) {
 
 std::vector<Figure> check(const std::string& name, const std::string& spec) {
   const TriangleMesh mesh = builtin_shape(spec);
-  const Problem p = make_problem(mesh, "loop", false);
+  const Problem p = make_problem(mesh, make_loop, false);
   // The same quadrature points before and after subdivision, so that only the surface can make a difference.
   const Topology coarse = make_topology(mesh.points.size(), mesh.triangles);
   const Refinement fine = loop_refine(coarse);

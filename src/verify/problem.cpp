@@ -2,8 +2,8 @@
 
 namespace pelage {
 
-Problem make_problem(const TriangleMesh& mesh, const std::string& method, bool interpolate) {
-  Problem p{make_discretisation(method, make_topology(mesh.points.size(), mesh.triangles)), mesh.points, {}, {}};
+Problem make_problem(const TriangleMesh& mesh, Discretisation (*discretise)(Topology), bool interpolate) {
+  Problem p{discretise(make_topology(mesh.points.size(), mesh.triangles)), mesh.points, {}, {}};
   if (interpolate) p.control = interpolating_control(p.discretisation, mesh.points);
   const Assembler assembler(p.discretisation);
   p.mass = assembler.mass(p.control);

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "catalog/resolve.h"
+#include "catalog/bind.h"
 #include "run/run.h"
 #include "verify/figure.h"
 #include "verify/triangulations.h"
@@ -19,11 +19,10 @@ double relative_wavelength(Triangulation triangulation) {
   recipe.stages[0].model.value = "turing";
   recipe.stages[0].size = Given<Length>{{size, false}, {}};
   recipe.stages[0].interpolate = true;
-  Run run(resolve(recipe, unit_sphere(triangulation, 1002)));
+  Run run(make_program(recipe, unit_sphere(triangulation, 1002)));
   while (!run.done()) run.advance(100);
   if (run.summary().status == RunStatus::failed) return 0;
-  const Operators& o = run.operators();
-  return measured_wavelength(*o.system().mass, o.stiffness(), run.coefficients()[0]) / size;
+  return measured_wavelength(*run.system().mass, *run.space().stiffness(), run.coefficients()[0]) / size;
 }
 
 }  // namespace

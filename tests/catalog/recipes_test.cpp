@@ -1,3 +1,5 @@
+#include "catalog/recipes.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -5,9 +7,12 @@
 #include <numbers>
 #include <utility>
 
-#include "catalog/resolve.h"
+#include "catalog/bind.h"
+#include "discretise/anisotropy.h"
 #include "discretise/quadrature.h"
-#include "run/anisotropy.h"
+#include "discretise/surface_space.h"
+#include "look/dress.h"
+#include "run/directions.h"
 #include "run/run.h"
 #include "shape/generators.h"
 #include "shape/vectors.h"
@@ -31,7 +36,7 @@ TEST_P(EveryRecipe, RunsSmallAndIsDressed) {
     stage.size->value.value = std::max(stage.size->value.value, 0.08);
     stage.steps = 3;
   }
-  pelage::Run run(resolve(recipe, builtin_shape("builtin:animal?n=1000")));
+  pelage::Run run(make_program(recipe, builtin_shape("builtin:animal?n=1000")));
   while (!run.done()) run.advance(10);
   EXPECT_NE(run.summary().status, RunStatus::failed) << run.summary().message;
   const TriangleMesh coat = dress(run.fields(), recipe.look);
@@ -81,11 +86,11 @@ struct Cascade {
     Recipe recipe = load_recipe(name);
     const double factor = large_spacing / recipe.stages[0].size->value.value;
     for (Stage& stage : recipe.stages) stage.size = {{stage.size->value.value * factor, false}, {}};
-    pelage::Run run(resolve(recipe, builtin_shape("builtin:sphere?n=10242")));
+    pelage::Run run(make_program(recipe, builtin_shape("builtin:sphere?n=10242")));
     while (!run.done()) run.advance(1000);
-    const SparseMatrix& values = run.operators().discretisation().values;
+    const SparseMatrix& values = run.space().node_values();
     const Vector first = values * run.finished()[0].fields[1], b = values * run.coefficients()[1];
-    const auto& position = run.operators().system().sampling->position;
+    const auto& position = run.system().sampling->position;
     std::vector<char> frozen, in_spot;
     for (std::size_t v = 0; v < position.size(); ++v) {
       const auto i = static_cast<Eigen::Index>(v);
@@ -94,7 +99,7 @@ struct Cascade {
       if (!frozen[v]) outside.push_back(position[v]);
       if (!frozen[v] && in_spot[v]) dark.push_back(position[v]);
     }
-    for (const Spot& s : spots(run.operators().discretisation().topology, position, in_spot, frozen))
+    for (const Spot& s : spots(run.world().hierarchy()->topology(run.world().levels()), position, in_spot, frozen))
       (s.large ? large : small).push_back(s.centre);
   }
 };
@@ -121,14 +126,14 @@ TEST(Cascades, SmallSpotsOfTheLeopardRingTheLargeOnes) {
 /// Mean angle in degrees between the stripes of a finished run and the field they follow, weighted with the squared
 /// gradient.
 double angle_to_field(const pelage::Run& run, const TriangleMesh& shape) {
-  const Operators& o = run.operators();
-  const std::vector<double> zero(static_cast<std::size_t>(o.discretisation().first_point.back()), 0);
+  const auto& space = dynamic_cast<const SurfaceSpace&>(run.space());
+  const std::vector<double> zero(static_cast<std::size_t>(space.discretisation().first_point.back()), 0);
   const std::vector<double> one(zero.size(), 1);
-  const auto lines = vertex_lines(shape, run.program().directions, o.levels());
-  const std::vector<Tensor> line = quadrature_tensors(o.discretisation(), o.control(), lines, {zero, one, zero});
+  const auto lines = vertex_lines(shape, run.stage_program().directions, *run.world().hierarchy());
+  const std::vector<Tensor> line = space.tensors(lines, {zero, one, zero});
   const Vector difference = run.coefficients()[1] - run.coefficients()[0];
   double angle = 0, weight = 0;
-  const std::vector<Point> gradients = quadrature_gradients(o.discretisation(), o.control(), difference);
+  const std::vector<Point> gradients = quadrature_gradients(space.discretisation(), space.control(), difference);
   for (std::size_t q = 0; q < gradients.size(); ++q) {
     const auto& [x, y, z] = gradients[q];
     const auto& [xx, xy, xz, yy, yz, zz] = line[q];
@@ -145,7 +150,7 @@ TEST(Zebra, StripesFollowTheFieldOnTheAnimal) {
   Recipe recipe = load_recipe("zebra");
   recipe.stages[0].size->value.value = 0.1;
   const TriangleMesh shape = builtin_shape("builtin:animal?n=3000");
-  pelage::Run run(resolve(recipe, shape));
+  pelage::Run run(make_program(recipe, shape));
   while (!run.done()) run.advance(1000);
   const double angle = angle_to_field(run, shape);
   RecordProperty("angle", std::to_string(angle));
@@ -157,14 +162,14 @@ std::vector<double> heights_of_spots(double size, bool mapped) {
   Recipe recipe = parse_recipe(std::string("[stage]\nmodel = \"turing\"\n") + (mapped ? "size-map = \"2 + z\"\n" : ""),
                                "test.toml");
   recipe.stages[0].size = {{size, false}, {}};
-  pelage::Run run(resolve(recipe, builtin_shape("builtin:sphere?n=10242")));
+  pelage::Run run(make_program(recipe, builtin_shape("builtin:sphere?n=10242")));
   while (!run.done()) run.advance(1000);
-  const Vector b = run.operators().discretisation().values * run.coefficients()[1];
-  const auto& position = run.operators().system().sampling->position;
+  const Vector b = run.space().node_values() * run.coefficients()[1];
+  const auto& position = run.system().sampling->position;
   std::vector<char> in_spot;
   for (const double value : b) in_spot.push_back(value < 3);
   std::vector<double> heights;
-  for (const Spot& s : spots(run.operators().discretisation().topology, position, in_spot, in_spot))
+  for (const Spot& s : spots(run.world().hierarchy()->topology(run.world().levels()), position, in_spot, in_spot))
     heights.push_back(s.centre[2] / length(s.centre));
   return heights;
 }

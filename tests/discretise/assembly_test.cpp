@@ -12,6 +12,7 @@
 #include "base/random.h"
 #include "discretise/quadrature.h"
 #include "shape/generators.h"
+#include "support/discretisations.h"
 #include "support/random_matrices.h"
 
 namespace pelage {

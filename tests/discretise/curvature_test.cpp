@@ -7,6 +7,7 @@
 
 #include "discretise/sampling.h"
 #include "shape/generators.h"
+#include "support/discretisations.h"
 
 namespace pelage {
 namespace {

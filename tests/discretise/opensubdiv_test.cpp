@@ -12,6 +12,7 @@
 #include <memory>
 #include <numbers>
 
+#include "base/box.h"
 #include "discretise/loop_patch.h"
 #include "discretise/sampling.h"
 #include "io/read_shape.h"
@@ -182,7 +183,7 @@ void compare(const std::string& name, const TriangleMesh& mesh) {
   osd::Far::TopologyRefiner::UniformOptions once(1);
   once.fullTopologyInLastLevel = true;
   refiner->RefineUniform(once);
-  const double diagonal = bounding_diagonal(mesh);
+  const double diagonal = box_of(mesh.points).diagonal();
   Surface surface(mesh);
   const OsdLimits limits = osd_limits(*refiner, mesh);
   Deviation vertices, edges, inside;

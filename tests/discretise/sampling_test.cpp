@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "shape/generators.h"
+#include "support/discretisations.h"
 #include "support/random_matrices.h"
 
 namespace pelage {

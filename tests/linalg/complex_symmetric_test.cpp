@@ -1,8 +1,7 @@
-#include "linalg/complex_symmetric.h"
-
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
+#include "linalg/conjugate_gradient.h"
 #include "support/random_matrices.h"
 
 namespace pelage {
@@ -17,15 +16,17 @@ struct System {
   System(std::int32_t n, Complex t) : mass(chain(n, 4)), stiffness(chain(n, 2)) {
     combine(mass, t, stiffness, matrix);
     b = random_vector(n, 1) + Complex(0, 1) * random_vector(n, 2);
-    inverse_diagonal = ComplexVector(diagonal(mass) + t * diagonal(stiffness)).cwiseInverse();
+    preconditioner = Jacobi(ComplexVector(diagonal(mass) + t * diagonal(stiffness)));
   }
   SolveReport solve(ComplexVector& x, const ConjugateGradientOptions& options = {}) const {
     x.setZero(b.size());
-    return ComplexConjugateGradient().solve(matrix, inverse_diagonal, b, x, options);
+    ConjugateGradientWork<ComplexVector> work;
+    return conjugate_gradient(matrix, preconditioner, b, x, nullptr, options, work);
   }
   SparseMatrix mass, stiffness;
   ComplexMatrix matrix;
-  ComplexVector b, inverse_diagonal;
+  ComplexVector b;
+  Jacobi<ComplexVector> preconditioner;
 };
 
 TEST(ComplexConjugateGradient, AgreesWithDenseElimination) {

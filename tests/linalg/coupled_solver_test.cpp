@@ -32,10 +32,11 @@ Solved solve(const MatrixXd& c, const ConjugateGradientOptions& options = {.tole
     s.b.push_back(random_vector(size, static_cast<std::uint64_t>(i) + 1).array() + 1.0);
     s.x.push_back(random_vector(size, static_cast<std::uint64_t>(i) + 70));
   }
-  const SparseMatrix mass = chain(size, 4), stiffness = free_chain();
+  const auto mass = std::make_shared<const SparseMatrix>(chain(size, 4)),
+             stiffness = std::make_shared<const SparseMatrix>(free_chain());
   CoupledSolver solver;
   solver.update(mass, stiffness, c);
-  s.report = solver.solve(stiffness, s.b, s.x, options);
+  s.report = solver.solve(s.b, s.x, options);
   return s;
 }
 
@@ -88,15 +89,29 @@ TEST(CoupledSolver, NoticesAnIndefiniteMatrix) {
 }
 
 TEST(CoupledSolver, TakesNewCoefficients) {
-  const SparseMatrix mass = chain(size, 4), stiffness = free_chain();
+  const auto mass = std::make_shared<const SparseMatrix>(chain(size, 4)),
+             stiffness = std::make_shared<const SparseMatrix>(free_chain());
   CoupledSolver solver;
   std::vector<Vector> b = {random_vector(size, 1), random_vector(size, 2)};
   for (const MatrixXd& c : {MatrixXd{{0, -0.3}, {1, 0}}, MatrixXd{{0, -0.6}, {1, 0}}}) {
     std::vector<Vector> x = b;
     solver.update(mass, stiffness, c);
-    solver.solve(stiffness, b, x, {.tolerance = 1e-13});
+    solver.solve(b, x, {.tolerance = 1e-13});
     EXPECT_LT((x[0] - solved_densely(c, b)[0]).norm(), 1e-10);
   }
+}
+
+/// A matrix with other values is another object.
+TEST(CoupledSolver, TakesNewMatrices) {
+  const MatrixXd c{{0, -0.3}, {1, 0}};
+  const auto stiffness = std::make_shared<const SparseMatrix>(free_chain());
+  CoupledSolver solver;
+  const std::vector<Vector> b = {random_vector(size, 1), random_vector(size, 2)};
+  solver.update(std::make_shared<const SparseMatrix>(chain(size, 8)), stiffness, c);
+  solver.update(std::make_shared<const SparseMatrix>(chain(size, 4)), stiffness, c);
+  std::vector<Vector> x = b;
+  solver.solve(b, x, {.tolerance = 1e-13});
+  EXPECT_LT((x[0] - solved_densely(c, b)[0]).norm(), 1e-10);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "run/anisotropy.h"
+#include "discretise/anisotropy.h"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,14 @@
 #include <functional>
 #include <numbers>
 
-#include "catalog/resolve.h"
+#include "catalog/bind.h"
 #include "discretise/sampling.h"
+#include "discretise/surface_space.h"
+#include "run/directions.h"
 #include "run/run.h"
 #include "shape/generators.h"
 #include "shape/vectors.h"
+#include "support/discretisations.h"
 
 namespace pelage {
 namespace {
@@ -36,7 +39,8 @@ void set_directions(TriangleMesh& mesh, const std::function<Point(const Point&)>
 
 SparseMatrix stiffness(const TriangleMesh& mesh, const Discretisation& d, double theta, double a1, double a2) {
   return Assembler(d).stiffness(
-      mesh.points, quadrature_tensors(d, mesh.points, vertex_lines(mesh, {}, 0), constant_rates(d, theta, a1, a2)));
+      mesh.points, quadrature_tensors(d, mesh.points, vertex_lines(mesh, {}, Hierarchy(*d.topology, midpoint_refine)),
+                                      constant_rates(d, theta, a1, a2)));
 }
 
 class EveryMethod : public ::testing::TestWithParam<std::string> {};
@@ -151,11 +155,11 @@ Run on_square(const std::string& model, double side, int vertices, double size, 
   recipe.stages[0].size = Given<Length>{{size, false}, {}};
   recipe.stages[0].until = until;
   recipe.stages[0].interpolate = true;
-  return Run(resolve(recipe, mesh));
+  return Run(make_program(recipe, mesh));
 }
 
 double amplitude(const Run& run, const std::function<double(const Point&)>& mode) {
-  const Sampling& s = *run.operators().system().sampling;
+  const Sampling& s = *run.system().sampling;
   const Vector u = s.values * run.coefficients()[0];
   double um = 0, mm = 0;
   for (Eigen::Index i = 0; i < u.size(); ++i) {
@@ -191,13 +195,14 @@ TEST(Anisotropy, StripesFollowTheField) {
       40, 3600, 7.7, 15);
   run.advance(100000);
   ASSERT_EQ(run.summary().status, RunStatus::time_reached) << run.summary().message;
-  const System& system = run.operators().system();
+  const System& system = run.system();
   const Vector& p = run.coefficients()[1];
-  const double wavelength = measured_wavelength(*system.mass, run.operators().stiffness(), p);
+  const double wavelength = measured_wavelength(*system.mass, *run.space().stiffness(), p);
   RecordProperty("wavelength", std::to_string(wavelength));
   EXPECT_NEAR(wavelength, 2 * pi * std::sqrt(1.5), 0.1 * 2 * pi * std::sqrt(1.5));
   double angle = 0, weight = 0;
-  for (const Point& g : quadrature_gradients(run.operators().discretisation(), run.operators().control(), p)) {
+  for (const Point& g : quadrature_gradients(dynamic_cast<const SurfaceSpace&>(run.space()).discretisation(),
+                                             run.space().control(), p)) {
     angle += dot(g, g) * std::atan2(std::abs(g[0]), std::abs(g[1])) * 180 / pi;
     weight += dot(g, g);
   }
@@ -242,7 +247,6 @@ TEST(Anisotropy, SafeRatiosDecayAsTheyShould) {
 TEST(Anisotropy, WarnsOfRatiosThatTheMeshCannotCarry) {
   const auto warnings = [](const char* anisotropy) {
     return on_square("[species.u]\nrate = '0'\nanisotropy = " + std::string(anisotropy), 2, 100, 1, 1)
-        .operators()
         .warnings()
         .size();
   };

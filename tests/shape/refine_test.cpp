@@ -2,24 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "discretise/sampling.h"
-#include "pelage/error.h"
+#include <cmath>
+
 #include "shape/generators.h"
 
 namespace pelage {
 namespace {
-
-RefinedMesh mesh_of(const std::string& spec) {
-  TriangleMesh mesh = builtin_shape(spec);
-  return {make_topology(mesh.points.size(), mesh.triangles), mesh.points, 0};
-}
-
-double area(const RefinedMesh& mesh, int splits) {
-  const Discretisation d = loop_discretisation(mesh.topology, {.regular_splits = splits, .irregular_splits = splits});
-  double sum = 0;
-  for (double w : quadrature_geometry(d, mesh.control).weight) sum += w;
-  return sum;
-}
 
 TEST(PrevailingEdge, IsTheEdgeOfAnEvenMesh) {
   // Two halves of unit squares: the diagonal.
@@ -39,31 +27,18 @@ TEST(PrevailingEdge, IgnoresASmallPartOfTheArea) {
   EXPECT_NEAR(prevailing_edge(triangles, points), before, 1e-12);
 }
 
-TEST(RefineToEdge, ReachesTheEdgeInAsFewLevelsAsItTakes) {
-  const RefinedMesh coarse = mesh_of("builtin:animal?n=500");
-  const double edge = prevailing_edge(coarse.topology.triangles, coarse.control);
-  for (bool loop : {true, false}) {
-    const RefinedMesh fine = refine_to_edge(coarse, edge / 3, loop, 1000000);
-    EXPECT_EQ(fine.levels, 2);
-    EXPECT_LE(prevailing_edge(fine.topology.triangles, fine.control), edge / 3);
+TEST(SplitValues, AreLinearOverTheTriangles) {
+  const TriangleMesh mesh = builtin_shape("builtin:plane?n=100");
+  const Topology topology = make_topology(mesh.points.size(), mesh.triangles);
+  std::vector<double> values;
+  for (const Point& p : mesh.points) values.insert(values.end(), {1 + 2 * p[0] - 3 * p[1], p[0]});
+  const std::vector<double> fine = split_values(topology, values, 2);
+  const std::vector<Point> points = split_points(topology, mesh.points);
+  ASSERT_EQ(fine.size(), 2 * points.size());
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    EXPECT_NEAR(fine[2 * v], 1 + 2 * points[v][0] - 3 * points[v][1], 1e-14);
+    EXPECT_NEAR(fine[2 * v + 1], points[v][0], 1e-14);
   }
-  EXPECT_EQ(refine_to_edge(coarse, edge, true, 1000000).levels, 0);
-}
-
-TEST(RefineToEdge, KeepsTheLimitSurface) {
-  for (const char* spec : {"builtin:animal?n=500", "builtin:plane?n=100"}) {
-    const RefinedMesh coarse = mesh_of(spec);
-    const RefinedMesh fine = refine_once(refine_once(coarse, true), true);
-    EXPECT_NEAR(area(fine, 0) / area(coarse, 2), 1, 1e-10) << spec;
-    const auto before = limit_positions(loop_discretisation(coarse.topology), coarse.control),
-               after = limit_positions(loop_discretisation(fine.topology), fine.control);
-    for (std::size_t i = 0; i < before.size(); ++i)  // the first vertices keep their numbers
-      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(after[i][k], before[i][k], 1e-13);
-  }
-}
-
-TEST(RefineToEdge, RefusesWhatWouldNotFitIntoMemory) {
-  EXPECT_THROW(refine_to_edge(mesh_of("builtin:sphere?n=162"), 1e-3, true, 10000), Error);
 }
 
 }  // namespace

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <fstream>
 
+#include "base/box.h"
+#include "catalog/bind.h"
 #include "catalog/models.h"
-#include "catalog/resolve.h"
 #include "react/stability.h"
 #include "shape/generators.h"
 #include "support/model_names.h"
@@ -26,7 +27,7 @@ Program program(const std::string& model, const TriangleMesh& shape, double size
   recipe.stages[0].size = Given<Length>{{size, false}, {}};
   recipe.stages[0].seed = seed;
   recipe.stages[0].interpolate = true;
-  return resolve(recipe, shape).front();
+  return make_program(recipe, shape);
 }
 
 void expect_pattern(const FinishedPattern& pattern) {
@@ -48,7 +49,7 @@ TEST_P(GrownModel, PatternOfItsWavelengthOnASphere) {
 
 TEST_P(GrownModel, PatternOnTheAnimal) {
   static const TriangleMesh animal = builtin_shape("builtin:animal?n=1000");
-  expect_pattern(finish_pattern(program(GetParam(), animal, 0.15 * bounding_diagonal(animal))));
+  expect_pattern(finish_pattern(program(GetParam(), animal, 0.15 * box_of(animal.points).diagonal())));
 }
 
 TEST_P(GrownModel, FastestWaveOfTheEarlyGrowth) {

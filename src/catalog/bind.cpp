@@ -1,0 +1,143 @@
+#include "catalog/bind.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/box.h"
+#include "catalog/images.h"
+#include "catalog/marks.h"
+#include "react/place_values.h"
+#include "react/stability.h"
+#include "run/random_points.h"
+
+namespace pelage {
+
+namespace {
+
+/// All that attribute(NAME) may read from the shape and its images; Error for an image that hides something.
+std::vector<std::string> attributes_of(const TriangleMesh& shape, const std::vector<TextureFile>& textures) {
+  std::vector<std::string> names;
+  for (const auto& [name, values] : scalar_attributes(shape.attributes)) names.push_back(name);
+  for (const TextureFile& t : textures)
+    for (const std::string& name : attribute_names(t.name.value)) {
+      if (std::ranges::count(names, name) > 0)
+        throw Error(
+            Fault::usage,
+            "the texture \"" + t.name.value + "\" would hide another attribute \"" + name + "\"; give it another name",
+            t.name.where);
+      names.push_back(name);
+    }
+  return names;
+}
+
+void require_uv(const TriangleMesh& shape, const std::vector<TextureFile>& textures) {
+  const Attribute* uv = shape.find("uv");
+  if (!textures.empty() && (!uv || uv->components != 2))
+    throw Error(Fault::usage,
+                "the shape has no uv, by which the texture \"" + textures[0].name.value +
+                    "\" would be laid on it; unwrap it and export it with uv",
+                textures[0].name.where);
+}
+
+/// Fields, which have a dot in their names, are known to be there.
+void require_attributes(const std::vector<Symbol>& symbols, std::vector<std::string> known,
+                        const std::vector<std::string>& more) {
+  known.insert(known.end(), more.begin(), more.end());
+  for (const Symbol& s : symbols)
+    if (s.kind == Symbol::Kind::attribute && s.name.find('.') == std::string::npos) require_attribute(s, known);
+}
+
+double world_length(const std::optional<Given<Length>>& given, double diagonal) {
+  const Length length = given ? given->value : Length{default_size, true};
+  return length.relative ? length.value * diagonal : length.value;
+}
+
+FieldWish bind_directions(const PlannedStage& planned, const MeshPlaces& places, double diagonal) {
+  const Directions& d = *planned.asked.directions;
+  FieldWish wish;
+  wish.axis = d.axis;
+  wish.curvature = d.curvature;
+  wish.strokes = d.strokes;
+  if (planned.from) {
+    wish.from = marked_vertices(*planned.from, places, d.from->where);
+    wish.to = marked_vertices(*planned.to, places, d.to->where);
+  }
+  wish.across = d.across;
+  wish.smooth = default_field_smoothing * diagonal;
+  return wish;
+}
+
+StageProgram bind_stage(const PlannedStage& planned, const Program& program, double diagonal) {
+  const Stage& asked = planned.asked;
+  const Suggestions& suggested = planned.model.source().suggestions;
+  StageProgram s;
+  s.name = asked.name.value;
+  s.model = planned.model;
+  s.model_name = asked.model.value;
+  s.stepper = planned.stepper;
+  s.size = world_length(asked.size, diagonal);
+  s.length_unit = s.size / model_wavelength(planned.plain);
+  s.step = asked.step;
+  s.suggested_step = suggested.step.value_or(1);
+  s.excluded = asked.inside.value == "excluded";
+  if (asked.points) s.points = world_length(asked.points, diagonal);
+  s.until = planned.until;
+  s.steps = asked.steps;
+  s.stationary = asked.stationary.value_or(suggested.tolerance.value_or(0));
+  s.seed = asked.seed;
+  if (asked.directions)
+    s.directions = bind_directions(planned, {*program.shape, program.textures, s.length_unit, s.seed}, diagonal);
+  return s;
+}
+
+/// The longest edge that carries the patterns of a stage.
+double stage_edge(const PlannedStage& planned, const StageProgram& s, const Program& program) {
+  const double edge = s.size / planned.model.source().suggestions.resolution_or_default();
+  if (!planned.size_map) return edge;
+  const MeshPlaces places{*program.shape, program.textures, s.length_unit, s.seed};
+  return edge * smallest_factor(*planned.size_map, places, edge, planned.asked.size_map->where);
+}
+
+/// Loop elements are made for moderate valences: where the recipe does not insist, others take their place.
+const Method* fitting_method(const Plan& plan, const TriangleMesh& shape, std::vector<std::string>& warnings) {
+  const Index valence = max_valence(make_topology(shape.points.size(), shape.triangles));
+  if (plan.method_asked || valence <= plan.method->max_valence) return plan.method;
+  warnings.push_back("a vertex has " + std::to_string(valence) + " edges, more than the " +
+                     std::to_string(plan.method->max_valence) + " that Loop elements take; using --method " +
+                     std::string(linear_method.name));
+  return &linear_method;
+}
+
+}  // namespace
+
+Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> images) {
+  const std::vector<std::string> known = attributes_of(shape, plan.textures);
+  require_uv(shape, plan.textures);
+  const double diagonal = box_of(shape.points).diagonal();
+  for (const PlannedStage& s : plan.stages)
+    require_attributes(place_symbols(s.model), known,
+                       s.asked.points ? std::vector<std::string>{points_attribute} : std::vector<std::string>{});
+  require_attributes(plan.paint.symbols(), known, plan.paint.species);
+  if (!(diagonal > 0)) throw Error(Fault::input, "the shape has no extent: all its vertices are at one place");
+  Program p;
+  p.method = fitting_method(plan, shape, p.warnings);
+  p.shape = std::make_shared<const TriangleMesh>(std::move(shape));
+  p.textures = std::move(images);
+  p.interpolate = plan.interpolate;
+  p.motion = {plan.fair, plan.motion.growth, plan.motion.mode.value == "physical", plan.motion.every};
+  p.edge = std::numeric_limits<double>::infinity();
+  for (const PlannedStage& s : plan.stages) {
+    p.stages.push_back(bind_stage(s, p, diagonal));
+    p.edge = std::min(p.edge, stage_edge(s, p.stages.back(), p));
+  }
+  p.edge /=
+      std::exp(std::max(0.0, plan.motion.growth * plan.until));  // it has to do when the surface is at its largest
+  return p;
+}
+
+Program make_program(const Recipe& recipe, TriangleMesh shape) {
+  return bind_plan(plan(recipe), std::move(shape), read_images(recipe.textures));
+}
+
+}  // namespace pelage

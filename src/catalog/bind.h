@@ -1,0 +1,17 @@
+#pragma once
+// Joins a plan to a shape: lengths, attributes, images, directions.
+
+#include "catalog/plan.h"
+#include "run/program.h"
+
+namespace pelage {
+
+/// `images`: those of the plan, as read_images() gives them (catalog/images.h). Error(Fault::usage), located in the
+/// recipe, for attributes that the shape does not have, maps of the size that are not greater than 0, and formulas that
+/// mark no vertex; Error(Fault::input) for a shape without extent, and for uv that images need and it lacks.
+Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> images = {});
+
+/// Plan, images and shape in one.
+Program make_program(const Recipe& recipe, TriangleMesh shape);
+
+}  // namespace pelage

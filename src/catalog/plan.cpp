@@ -1,0 +1,205 @@
+#include "catalog/plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/number.h"
+#include "base/suggest.h"
+#include "catalog/models.h"
+#include "catalog/names.h"
+#include "catalog/stage_changes.h"
+#include "react/place_values.h"
+#include "run/program.h"
+#include "run/random_points.h"
+#include "shape/vectors.h"
+
+namespace pelage {
+
+namespace {
+
+/// The component of that name, or of that older name.
+template <class Component>
+const Component& component(const Given<std::string>& name, const std::string& kind,
+                           const std::vector<const Component*>& known) {
+  std::vector<std::string> names;
+  for (const Component* c : known) {
+    if (c->name == name.value) return *c;
+    if constexpr (requires { c->alias; })
+      if (!c->alias.empty() && c->alias == name.value) return *c;
+    names.emplace_back(c->name);
+  }
+  throw Error(Fault::usage, unknown_name(kind, name.value, names), name.where);
+}
+
+void require_known(const Given<std::string>& name, const std::string& kind, const std::vector<std::string>& known) {
+  if (std::ranges::count(known, name.value) == 0)
+    throw Error(Fault::usage, unknown_name(kind, name.value, known), name.where);
+}
+
+Overrides numbers_of(const Stage& stage) {
+  Overrides overrides;
+  for (const Stage::Setting& s : stage.parameters)
+    if (s.formula.empty()) overrides[s.name] = Override(s.value, s.where);
+  return overrides;
+}
+
+void require_stage_names(const std::vector<Stage>& stages) {
+  for (std::size_t k = 0; k < stages.size(); ++k) {
+    const Given<std::string>& name = stages[k].name;
+    require_name(name);
+    for (std::size_t other = 0; other < k; ++other)
+      if (stages[other].name.value == name.value)
+        throw Error(Fault::usage, "two stages are called \"" + name.value + "\"", name.where);
+  }
+}
+
+/// All stages live on one mesh.
+void require_same_method(const Stage& first, const Stage& stage) {
+  if (stage.method.value != first.method.value && stage.method.where.line > 0)
+    throw Error(Fault::usage, "all stages have the method of the first, \"" + first.method.value + "\"",
+                stage.method.where);
+}
+
+void require_stepper_can(const StepperKind& stepper, const Model& model, const Location& where) {
+  const auto refuse = [&](const std::string& what) {
+    throw Error(Fault::usage,
+                "the stepper \"" + std::string(stepper.name) + "\" cannot " + what + "; take \"" +
+                    std::string(sbdf2.name) + "\"",
+                where);
+  };
+  if (!stepper.couples && !model.coupled().empty())
+    refuse("grow \"" + model.name() + "\", whose species are coupled by lap()");
+  if (!stepper.holds && model.held()) refuse("hold parts of the surface");
+}
+
+/// Names of all fields that these stages leave behind.
+std::vector<std::string> earlier_fields(const std::vector<PlannedStage>& stages) {
+  std::vector<std::string> names;
+  for (const PlannedStage& stage : stages)
+    for (std::size_t i = 0; i < stage.model.species_count(); ++i)
+      names.push_back(field_name(stage.asked.name.value, stage.model.species_name(i)));
+  return names;
+}
+
+bool is_field(const Symbol& s) { return s.kind == Symbol::Kind::attribute && s.name.find('.') != std::string::npos; }
+
+void require_fields(const std::vector<Symbol>& symbols, const std::vector<std::string>& known) {
+  for (const Symbol& s : symbols)
+    if (is_field(s)) require_attribute(s, known);
+}
+
+/// Whether the formula depends on no more than a mesh tells: neither curvatures nor fields of earlier stages.
+bool known_from_mesh(const PlaceFormula& formula) {
+  return std::ranges::none_of(formula.symbols(),
+                              [](const Symbol& s) { return s.kind == Symbol::Kind::curvature || is_field(s); });
+}
+
+std::optional<PlaceFormula> marks(const std::optional<Given<std::string>>& text) {
+  if (!text) return {};
+  PlaceFormula formula({text->value, text->where});
+  if (!known_from_mesh(formula))
+    throw Error(Fault::usage, "what marks vertices cannot depend on curvatures or on earlier stages", text->where);
+  return formula;
+}
+
+void plan_directions(const Directions& d, PlannedStage& stage) {
+  if (!stage.model.anisotropic())
+    throw Error(Fault::usage, "model \"" + stage.model.name() + "\" diffuses the same in all directions", d.where);
+  if (d.axis && length(*d.axis) == 0) throw Error(Fault::usage, "the axis has length 0", d.where);
+  stage.from = marks(d.from);
+  stage.to = marks(d.to);
+}
+
+std::optional<PlaceFormula> plan_size_map(const Stage& stage, const Model& model) {
+  if (!stage.size_map) return {};
+  std::map<std::string, double> numbers;
+  for (const ParameterSource& p : model.parameters()) numbers[p.name] = p.value;
+  PlaceFormula formula({stage.size_map->value, stage.size_map->where}, {}, numbers);
+  return known_from_mesh(formula) ? std::optional(std::move(formula)) : std::nullopt;
+}
+
+PlannedStage plan_stage(const Stage& stage, const Stage& first, const std::vector<PlannedStage>& before,
+                        const Components& components) {
+  PlannedStage p;
+  p.asked = stage;
+  p.stepper = &component(stage.stepper, "stepper", components.steppers);
+  require_known(stage.inside, "way to treat the inside of a mask", {"frozen", "excluded"});
+  require_same_method(first, stage);
+  const ModelSource source = load_model(stage.model.value);
+  p.plain = compile(source, numbers_of(stage));  // faults of the model itself are found before those of the stage
+  const std::vector<std::string> fields = earlier_fields(before);
+  p.model = compile(source, numbers_of(stage), stage_changes(source, stage, fields));
+  require_fields(place_symbols(p.model), fields);
+  require_stepper_can(*p.stepper, p.model, stage.stepper.where);
+  if (stage.directions) plan_directions(*stage.directions, p);
+  p.size_map = plan_size_map(stage, p.model);
+  p.until = stage.until.value_or(source.suggestions.end.value_or(1000));
+  return p;
+}
+
+/// The mesh is made for the largest size of the surface; beyond this there are other mistakes.
+constexpr double most_growth = 10;
+
+void plan_motion(const Motion& motion, Plan& plan) {
+  require_known(motion.mode, "mode of motion", {"texture", "physical"});
+  if (motion.fair) {
+    require_known(*motion.fair, "method of fairing", fair_methods());
+    plan.fair.emplace().method = motion.fair->value;
+  }
+  if (!(std::abs(motion.growth * plan.until) <= std::log(most_growth)))
+    throw Error(Fault::usage, "with a growth of " + number(motion.growth) + " until time " + number(plan.until) +
+                                  " the surface changes its size by more than " + number(most_growth) +
+                                  " times; lower one of them");
+  plan.motion = motion;
+}
+
+void require_texture_names(const std::vector<TextureFile>& textures, const Model& last) {
+  std::vector<std::string> taken = {points_attribute};
+  for (const TextureFile& t : textures) {
+    require_name(t.name);
+    // Layers know the species of the last stage as attributes, too.
+    for (std::size_t i = 0; i < last.species_count(); ++i)
+      if (last.species_name(i) == t.name.value)
+        throw Error(Fault::usage, "the texture \"" + t.name.value + "\" is called like a species; give it another name",
+                    t.name.where);
+    for (const std::string& name : attribute_names(t.name.value)) {
+      if (std::ranges::count(taken, name) > 0)
+        throw Error(
+            Fault::usage,
+            "the texture \"" + t.name.value + "\" would hide another attribute \"" + name + "\"; give it another name",
+            t.name.where);
+      taken.push_back(name);
+    }
+  }
+}
+
+/// Fields that a look can show or read: those of earlier stages, then the species of the last.
+std::vector<std::string> shown_fields(const std::vector<PlannedStage>& stages) {
+  std::vector<std::string> names = earlier_fields({stages.begin(), stages.end() - 1});
+  const Model& last = stages.back().model;
+  for (std::size_t i = 0; i < last.species_count(); ++i) names.push_back(last.species_name(i));
+  return names;
+}
+
+}  // namespace
+
+Plan plan(const Recipe& recipe, const Components& components) {
+  require_stage_names(recipe.stages);
+  Plan p;
+  const Given<std::string>& method = recipe.stages[0].method;
+  p.method = &component(method, "method", components.methods);
+  p.method_asked = !method.where.file.empty();
+  p.textures = recipe.textures;
+  for (const Stage& stage : recipe.stages) {
+    p.stages.push_back(plan_stage(stage, recipe.stages[0], p.stages, components));
+    p.until += p.stages.back().until;
+    p.interpolate |= stage.interpolate;
+  }
+  require_texture_names(recipe.textures, p.stages.back().model);
+  p.paint = resolve_paint(recipe.look, shown_fields(p.stages));
+  require_fields(p.paint.symbols(), p.paint.species);
+  plan_motion(recipe.motion, p);
+  return p;
+}
+
+}  // namespace pelage

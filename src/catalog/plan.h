@@ -1,0 +1,45 @@
+#pragma once
+// Joins the names of a recipe to components. Every fault that needs no shape is found here, before any work.
+
+#include <optional>
+#include <vector>
+
+#include "catalog/components.h"
+#include "fair/fair.h"
+#include "look/palette.h"
+#include "pelage/recipe.h"
+#include "react/model.h"
+#include "react/place_formula.h"
+
+namespace pelage {
+
+/// Default of Stage::size, as a fraction of the diagonal.
+inline constexpr double default_size = 0.04;
+
+struct PlannedStage {
+  Stage asked;  ///< what the recipe says
+  Model plain;  ///< with its own numbers: what the unit of length follows from
+  Model model;  ///< with what the stage changes in it
+  const StepperKind* stepper = nullptr;
+  std::optional<PlaceFormula> size_map;  ///< where a mesh alone tells it
+  std::optional<PlaceFormula> from, to;  ///< of the directions
+  double until = 0;                      ///< model time
+};
+
+/// Immutable; nothing in it depends on a shape.
+struct Plan {
+  const Method* method = nullptr;
+  bool method_asked = false;  ///< by the recipe: then it is not exchanged for one that suits the shape better
+  bool interpolate = false;
+  std::vector<TextureFile> textures;
+  std::vector<PlannedStage> stages;
+  Motion motion;
+  std::optional<FairOptions> fair;
+  double until = 0;  ///< of all stages together
+  Paint paint;
+};
+
+/// Error(Fault::usage), located in the recipe, for anything unknown, contradictory or misspelt.
+Plan plan(const Recipe& recipe, const Components& components = {});
+
+}  // namespace pelage

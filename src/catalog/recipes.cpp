@@ -1,0 +1,39 @@
+#include "catalog/recipes.h"
+
+#include <fstream>
+#include <sstream>
+
+#include "base/suggest.h"
+#include "catalog/embedded.h"
+
+namespace pelage {
+
+namespace {
+
+constexpr std::string_view recipe_folder = "recipes/", extension = ".toml";
+
+}  // namespace
+
+std::vector<std::string> recipe_names() {
+  std::vector<std::string> names;
+  for (const EmbeddedFile& f : embedded_files())
+    if (f.path.starts_with(recipe_folder))
+      names.emplace_back(f.path.substr(recipe_folder.size(), f.path.size() - recipe_folder.size() - extension.size()));
+  return names;
+}
+
+Recipe load_recipe(const std::string& name_or_path) {
+  if (name_or_path.ends_with(extension)) {
+    std::ifstream file(name_or_path);
+    if (!file) throw Error(Fault::input, "cannot be read", {name_or_path});
+    std::ostringstream text;
+    text << file.rdbuf();
+    return parse_recipe(text.str(), name_or_path);
+  }
+  for (const EmbeddedFile& f : embedded_files())
+    if (f.path == std::string(recipe_folder) + name_or_path + std::string(extension))
+      return parse_recipe(std::string(f.text), std::string(f.path));
+  throw Error(Fault::usage, unknown_name("recipe", name_or_path, recipe_names()));
+}
+
+}  // namespace pelage

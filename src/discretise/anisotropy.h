@@ -1,0 +1,22 @@
+#pragma once
+// Diffusion tensors on a surface from a direction field and rates along and across it (Witkin, Kass 1991, section 4; on
+// a surface in the conservative form div(T grad u)).
+
+#include "discretise/assembly.h"
+#include "discretise/quadrature.h"
+#include "react/kinetics.h"
+
+namespace pelage {
+
+/// d d', by which a line of either sense is known.
+Tensor line_tensor(const Point& d);
+
+/// T = a1^2 d d' + a2^2 n n' at the quadrature points, with d at the angle theta from the field, counter-clockwise seen
+/// from outside. `lines`: at the vertices of the discretisation; `rates`: at its quadrature points.
+std::vector<Tensor> quadrature_tensors(const Discretisation& discretisation, const std::vector<Point>& control,
+                                       const std::vector<Tensor>& lines, const Kinetics::TensorField& rates);
+
+/// Largest ratio of a1 and a2, taken either way; infinite where one of them is 0 and the other is not.
+double largest_ratio(const Kinetics::TensorField& rates);
+
+}  // namespace pelage

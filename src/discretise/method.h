@@ -1,0 +1,36 @@
+#pragma once
+// What the rest of the program knows of a discretisation.
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "discretise/space.h"
+#include "shape/hierarchy.h"
+
+namespace pelage {
+
+struct Method {
+  std::string_view name;
+  std::string_view summary;                    ///< some words
+  Hierarchy::Rule refine;                      ///< of control points and coefficients, from level to level
+  LimitMasks (*limit_masks)(const Topology&);  ///< of both at the vertices; null: the surface goes through them
+  std::vector<Point> (*interpolate)(
+      const Topology& topology,
+      const std::vector<Point>& points);  ///< control points
+                                          ///< whose surface goes through the points; null: they themselves
+  std::shared_ptr<const Space> (*make_space)(std::shared_ptr<const Topology> topology, std::vector<Point> control);
+  Index max_valence;  ///< edges at a vertex
+  /// Ratio of the rates along and across up to which waves across a field that is oblique to an even mesh decay, at the
+  /// coarsest resolution, no faster than they do without anisotropy but for a percent of their rate (Loop) or for a few
+  /// (linear, whose error is 17 % to begin with): tests/run/anisotropy_test.cpp measures it.
+  double safe_anisotropy;
+};
+
+extern const Method loop_method;
+extern const Method linear_method;
+
+/// Those that come with the program, the default first.
+std::span<const Method* const> methods();
+
+}  // namespace pelage

@@ -1,0 +1,65 @@
+#pragma once
+// All that a run and its time steppers know of WHERE: a space of functions with its samples and matrices. Unknowns are
+// coefficients; every unknown has a node, the place whose value it stands for first of all; functions are sampled at
+// the nodes or at quadrature points.
+
+#include <memory>
+#include <vector>
+
+#include "discretise/curvature.h"
+#include "discretise/sampling.h"
+#include "react/kinetics.h"
+
+namespace pelage {
+
+/// Samples, and the mass matrix that they make.
+struct SampledMass {
+  std::shared_ptr<const Sampling> sampling;
+  SharedMatrix mass;  ///< unknowns x unknowns [area], in the pattern of the stiffness
+};
+
+/// What formulas may read from places on the surface.
+struct PlaceGeometry {
+  std::vector<Point> position, normal;
+  PrincipalCurvatures curvature;  ///< empty unless it was asked for
+};
+
+/// Immutable, and shared by all stages of a run.
+class Space {
+ public:
+  virtual ~Space() = default;
+
+  virtual Index unknowns() const = 0;
+  /// At the nodes the matrix is M = B'WB with as many samples as unknowns; at quadrature points it is the reference.
+  virtual SampledMass sampled(SampleRule rule) const = 0;
+  /// Nodes x unknowns: the values of functions at the nodes.
+  virtual const SparseMatrix& node_values() const = 0;
+  /// Quadrature points x unknowns.
+  virtual SparseMatrix quadrature_values() const = 0;
+  /// K_ij = integral of grad phi_i . grad phi_j: positive semidefinite, K 1 = 0.
+  virtual SharedMatrix stiffness() const = 0;
+
+  /// M_ij = integral of c phi_i phi_j and K_ij = integral of grad phi_i . c grad phi_j, with a number or a tensor c at
+  /// each quadrature point.
+  virtual SparseMatrix weighted_mass(const std::vector<double>& c) const = 0;
+  virtual SparseMatrix stiffness(const std::vector<double>& c) const = 0;
+  virtual SparseMatrix stiffness(const std::vector<Tensor>& c) const = 0;
+
+  virtual PlaceGeometry geometry(SampleRule rule, bool with_curvature) const = 0;
+  /// Attributes, given at the nodes, at the quadrature points.
+  virtual std::vector<double> at_quadrature_points(const std::vector<double>& at_nodes) const = 0;
+  /// Diffusion tensors at the quadrature points from lines d d' at the nodes and rates at the quadrature points:
+  /// T = a1^2 d d' + a2^2 n n' with d at the angle theta from the line, counter-clockwise seen from outside.
+  virtual std::vector<Tensor> tensors(const std::vector<Tensor>& lines, const Kinetics::TensorField& rates) const = 0;
+  /// Of a set of nodes (1 inside) those whose basis functions do not reach out of it.
+  virtual std::vector<char> interior(std::vector<char> nodes) const = 0;
+
+  /// The control points, one per unknown [world units], and the space at other ones.
+  virtual const std::vector<Point>& control() const = 0;
+  virtual std::shared_ptr<const Space> moved(std::vector<Point> control) const = 0;
+};
+
+/// An upper estimate of the largest k^2 that the space carries: of K x = k^2 M x, by power iteration [1 / world^2].
+double largest_k2(const SparseMatrix& mass, const SparseMatrix& stiffness);
+
+}  // namespace pelage

@@ -1,0 +1,31 @@
+#pragma once
+// Fields as a run leaves them.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "discretise/method.h"
+#include "pelage/triangle_mesh.h"
+#include "shape/texture.h"
+
+namespace pelage {
+
+/// Of one moment of a run; what does not change is shared with it.
+struct CoatFields {
+  std::shared_ptr<const TriangleMesh> shape;   ///< the mesh that the user gave, repaired
+  std::vector<Point> points;                   ///< where its vertices are now
+  std::vector<Texture> textures;               ///< that layers may read
+  std::shared_ptr<const Hierarchy> hierarchy;  ///< of the shape; the fields live on its finest level
+  const Method* method = nullptr;
+  std::shared_ptr<const Space> space;
+  std::vector<Point> initial_control;             ///< control points before the surface moved; empty if it has not
+  std::vector<std::string> species;               ///< of earlier stages "STAGE.SPECIES"
+  std::vector<std::vector<double>> coefficients;  ///< per species, one for every control point
+  std::vector<char> uniform;                      ///< per species, whether it shows no pattern
+  double wavelength = 0;                          ///< of the finest pattern [world units]
+  double length_unit = 1;                         ///< world length of a model length unit of the last stage
+  std::uint64_t seed = 1;                         ///< of the last stage
+};
+
+}  // namespace pelage

@@ -1,0 +1,130 @@
+#include "look/palette.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "base/quantile.h"
+#include "base/suggest.h"
+#include "pelage/error.h"
+
+namespace pelage {
+
+namespace {
+
+/// The ends of the ramp are quantiles, so that a few extreme samples do not bleach the rest.
+constexpr double ramp_quantile = 0.005;
+
+/// What a text means, or a fault with its place.
+template <class Meaning>
+auto located(const Given<std::string>& text, Meaning&& meaning) {
+  try {
+    return meaning(text.value);
+  } catch (const Error& error) {
+    throw Error(error.fault(), error.what(), text.where);
+  }
+}
+
+std::size_t shown_species(const std::vector<std::string>& species, const Look& look) {
+  if (!look.species) return species.size() - 1;
+  const auto found = std::ranges::find(species, look.species->value);
+  if (found == species.end())
+    throw Error(Fault::usage, unknown_name("species", look.species->value, species), look.species->where);
+  return static_cast<std::size_t>(found - species.begin());
+}
+
+/// Formulas know the species of the last stage by their own names.
+PlaceFormula layer_formula(const Given<std::string>& text, const std::vector<std::string>& species) {
+  std::vector<std::string> own;
+  for (const std::string& name : species)
+    if (name.find('.') == std::string::npos) own.push_back(name);
+  return PlaceFormula({text.value, text.where}, own);
+}
+
+PaintLayer resolve_layer(const Layer& layer, const std::vector<std::string>& species) {
+  PaintLayer result;
+  if (layer.color) result.color = located(*layer.color, parse_hex_color);
+  if (layer.ramp) {
+    result.ramp = RampTable(located(*layer.ramp, named_ramp));
+    result.value = layer_formula(layer.value, species);
+  }
+  result.low = layer.low;
+  result.high = layer.high;
+  if (layer.opacity) result.opacity = layer_formula(*layer.opacity, species);
+  return result;
+}
+
+Places places_of(const CoatSamples& s, const std::vector<std::string>& species) {
+  Places places{.positions = s.position, .normals = s.normal, .k1 = s.curvature.k1, .k2 = s.curvature.k2};
+  for (const auto& [name, values] : s.attributes) places.attributes[name] = values;
+  for (std::size_t i = 0; i < species.size(); ++i) places.attributes[species[i]] = s.fields[i];
+  places.length_unit = s.length_unit;
+  places.drawn_at = s.drawn_at;
+  return places;
+}
+
+std::vector<double> ramp_colors(const std::vector<double>& field, const Palette& palette) {
+  const double low = palette.low, high = palette.high;
+  std::vector<double> values(3 * field.size());
+  parallel_for(field.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const double place = high > low ? std::clamp((field[i] - low) / (high - low), 0.0, 1.0) : 0.5;
+      const Color color = palette.paint.ramp(palette.paint.invert ? 1 - place : place);
+      std::copy(color.begin(), color.end(), values.begin() + static_cast<std::ptrdiff_t>(3 * i));
+    }
+  });
+  return values;
+}
+
+void paint_layer(const PaintLayer& layer, const Places& places, std::uint64_t seed, std::vector<double>& colors) {
+  const std::size_t count = places.positions.size();
+  const std::vector<double> value = layer.value ? layer.value->at(places, seed) : std::vector<double>{};
+  const std::vector<double> opacity = layer.opacity ? layer.opacity->at(places, seed) : std::vector<double>(count, 1);
+  parallel_for(count, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Color top = layer.ramp
+                            ? (*layer.ramp)(std::clamp((value[i] - layer.low) / (layer.high - layer.low), 0.0, 1.0))
+                            : layer.color;
+      const double share = opacity[i] > 0 ? std::min(opacity[i], 1.0) : 0;
+      for (std::size_t c = 0; c < 3; ++c) colors[3 * i + c] += share * (top[c] - colors[3 * i + c]);
+    }
+  });
+}
+
+}  // namespace
+
+std::vector<Symbol> Paint::symbols() const {
+  std::vector<Symbol> all;
+  for (const PaintLayer& layer : layers)
+    for (const auto* formula : {&layer.value, &layer.opacity})
+      if (*formula)
+        for (Symbol& s : (*formula)->symbols()) all.push_back(std::move(s));
+  return all;
+}
+
+Paint resolve_paint(const Look& look, std::vector<std::string> species) {
+  const Ramp ramp = located(look.ramp, [](const std::string& name) { return named_ramp(name); });
+  Paint paint{std::move(species), 0, RampTable(ramp), look.invert, {}};
+  for (const Layer& layer : look.layers) paint.layers.push_back(resolve_layer(layer, paint.species));
+  paint.shown = shown_species(paint.species, look);
+  return paint;
+}
+
+Palette make_palette(Paint paint, const CoatSamples& samples, const std::vector<char>& uniform) {
+  Palette palette{std::move(paint), 0, 0};
+  const std::size_t shown = palette.paint.shown;
+  if (uniform[shown]) return palette;
+  std::vector<double> sorted = samples.fields[shown];
+  palette.low = quantile(sorted, ramp_quantile);
+  palette.high = quantile(sorted, 1 - ramp_quantile);
+  return palette;
+}
+
+std::vector<double> paint(const CoatSamples& samples, const Palette& palette) {
+  std::vector<double> colors = ramp_colors(samples.fields[palette.paint.shown], palette);
+  if (palette.paint.layers.empty()) return colors;
+  const Places places = places_of(samples, palette.paint.species);
+  for (const PaintLayer& layer : palette.paint.layers) paint_layer(layer, places, samples.seed, colors);
+  return colors;
+}
+
+}  // namespace pelage

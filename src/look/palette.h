@@ -1,0 +1,52 @@
+#pragma once
+// From the values of fields to colours: what a look says, with its names resolved; the same with its ranges fixed; and
+// the one function that paints samples with it.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "look/ramp.h"
+#include "look/samples.h"
+#include "pelage/recipe.h"
+#include "react/place_formula.h"
+
+namespace pelage {
+
+/// A coat of paint over those below it.
+struct PaintLayer {
+  Color color{};                        ///< everywhere, unless there is a ramp
+  std::optional<RampTable> ramp;        ///< at a value, from low to high
+  std::optional<PlaceFormula> value;    ///< of the ramp
+  double low = 0, high = 1;             ///< where it begins and ends
+  std::optional<PlaceFormula> opacity;  ///< 0..1; default 1
+};
+
+struct Paint {
+  std::vector<std::string> species;  ///< of the fields, "STAGE.SPECIES" those of earlier stages
+  std::size_t shown = 0;             ///< the one whose values the ramp shows
+  RampTable ramp;
+  bool invert = false;
+  std::vector<PaintLayer> layers;  ///< the first one lowest
+
+  /// What the layers read from the place, species and fields included.
+  std::vector<Symbol> symbols() const;
+};
+
+/// Error(Fault::usage), located, for an unknown species, ramp or colour and for faults in the formulas of layers.
+Paint resolve_paint(const Look& look, std::vector<std::string> species);
+
+/// A paint with the ends of its ramp: samples with these values get the ends' colours.
+struct Palette {
+  Paint paint;
+  double low = 0, high = 0;  ///< equal for a field without a pattern, which gets the colour of the ramp's middle
+};
+
+/// The lowest and the highest half percent of the samples at the ends. `uniform`: per species, whether there is no
+/// pattern to show.
+Palette make_palette(Paint paint, const CoatSamples& samples, const std::vector<char>& uniform);
+
+/// Colours of the samples, 3 each, linear light. Error(Fault::usage), located, where they lack what a layer reads.
+std::vector<double> paint(const CoatSamples& samples, const Palette& palette);
+
+}  // namespace pelage

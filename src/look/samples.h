@@ -1,0 +1,24 @@
+#pragma once
+// Samples of a coat, wherever they lie: at vertices of a mesh, at texels of an image.
+
+#include <vector>
+
+#include "discretise/curvature.h"
+#include "shape/scalar_attributes.h"
+
+namespace pelage {
+
+/// All arrays have one entry per sample.
+struct CoatSamples {
+  std::vector<Point> position, normal;
+  PrincipalCurvatures curvature;            ///< empty unless a formula reads it
+  std::vector<std::vector<double>> fields;  ///< per species, in the order of CoatFields
+  VertexAttributes attributes;              ///< of the shape and its textures, as formulas know them
+  std::vector<Point> drawn_at;              ///< initial places, of a surface that has moved; otherwise empty
+  double length_unit = 1;                   ///< world length of a model length unit
+  std::uint64_t seed = 1;                   ///< of random fields
+
+  std::size_t size() const { return position.size(); }
+};
+
+}  // namespace pelage

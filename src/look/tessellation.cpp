@@ -1,0 +1,160 @@
+#include "look/tessellation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pelage/error.h"
+#include "shape/normals.h"
+#include "shape/refine.h"
+#include "shape/vectors.h"
+
+namespace pelage {
+
+namespace {
+
+/// Colours are linear along the edges of the output: so many edges per wavelength keep spots round.
+constexpr double edges_per_wavelength = 16;
+/// Splitting for the sake of smooth colours stops here: about 100 MB of output.
+constexpr std::size_t most_triangles = 1'500'000;
+/// More than this no memory holds.
+constexpr double most_triangles_asked = 3e7;
+/// What the colours of the shape are called in the coat.
+constexpr const char* input_color = "input_color";
+
+std::vector<Attribute> kept_attributes(std::vector<Attribute> attributes, const std::vector<std::string>& species) {
+  std::vector<Attribute> kept;
+  for (Attribute& a : attributes) {
+    if (a.name == "normal") continue;             // made anew
+    if (a.name == "color") a.name = input_color;  // makes room for the coat
+    if (std::ranges::count(species, a.name) == 0) kept.push_back(std::move(a));
+  }
+  return kept;
+}
+
+int levels_for_colour(const CoatFields& fields) {
+  const Topology& finest = fields.hierarchy->topology(fields.hierarchy->finest());
+  double edge = prevailing_edge(finest.triangles, fields.space->control());
+  std::size_t triangles = finest.triangles.size();
+  int levels = 0;
+  while (edge > fields.wavelength / edges_per_wavelength && 4 * triangles <= most_triangles) {
+    edge /= 2;
+    triangles *= 4;
+    ++levels;
+  }
+  return levels;
+}
+
+int checked_detail(const CoatFields& fields, int detail) {
+  auto triangles = static_cast<double>(fields.hierarchy->topology(fields.hierarchy->finest()).triangles.size());
+  for (int i = 0; i < detail && triangles <= most_triangles_asked; ++i) triangles *= 4;
+  if (triangles > most_triangles_asked)
+    throw Error(Fault::usage,
+                "detail " + std::to_string(detail) + " makes more than 30 million triangles; ask for less");
+  return detail;
+}
+
+/// The levels of the run and those that the colours need beyond.
+Hierarchy levels_of(const CoatFields& fields, const TessellationRequest& request) {
+  Hierarchy h = *fields.hierarchy;
+  const int more = request.detail ? checked_detail(fields, *request.detail) : levels_for_colour(fields);
+  for (int level = 0; level < more; ++level) h.refine();
+  return h;
+}
+
+std::vector<Point> limit_normals(const LimitMasks& masks, const std::vector<Point>& control) {
+  std::vector<Point> normals = combine(masks.tangent1, control);
+  const std::vector<Point> other = combine(masks.tangent2, control);
+  for (std::size_t i = 0; i < normals.size(); ++i) normals[i] = unit(cross(normals[i], other[i]));
+  return normals;
+}
+
+/// What the layers may read from the shape and its textures.
+VertexAttributes layer_attributes(const std::vector<Texture>& textures, const Tessellation& t) {
+  std::vector<Attribute> given = t.attributes;
+  for (Attribute& a : given)
+    if (a.name == input_color) a.name = "color";  // as formulas of stages know it
+  VertexAttributes attributes = scalar_attributes(given);
+  for (const Attribute& uv : given)
+    for (const Texture& texture : textures)
+      if (uv.name == "uv") attributes.merge(texture_attributes(texture, t.triangles, t.samples.size(), uv));
+  return attributes;
+}
+
+/// One making of a tessellation.
+class Tessellator {
+ public:
+  Tessellator(const CoatFields& fields, const TessellationRequest& request)
+      : fields_(fields), request_(request), levels_(levels_of(fields, request)) {}
+
+  Tessellation make() {
+    if (fields_.method->limit_masks) masks_ = fields_.method->limit_masks(levels_.topology(levels_.finest()));
+    Tessellation t;
+    t.triangles = levels_.topology(levels_.finest()).triangles;
+    add_fields(t.samples);
+    add_geometry(t);
+    if (request_.curvature) add_curvature(t.samples);
+    t.attributes = kept_attributes(fields_.shape->attributes, fields_.species);
+    for (Attribute& a : t.attributes) levels_.interpolate(a, 0, levels_.finest());
+    t.samples.attributes = layer_attributes(fields_.textures, t);
+    t.samples.length_unit = fields_.length_unit;
+    t.samples.seed = fields_.seed;
+    return t;
+  }
+
+ private:
+  int run_level() const { return fields_.hierarchy->finest(); }
+  std::vector<Point> flat(const std::vector<Point>& points) const {
+    return levels_.interpolated(points, 0, levels_.finest());
+  }
+  std::vector<Point> refined(const std::vector<Point>& control) const {
+    return levels_.refined(control, run_level(), levels_.finest());
+  }
+
+  void add_fields(CoatSamples& samples) const {
+    for (const std::vector<double>& coefficients : fields_.coefficients) {
+      std::vector<double> field = levels_.refined(coefficients, run_level(), levels_.finest());
+      samples.fields.push_back(masks_ ? combine(masks_->position, field) : std::move(field));
+    }
+  }
+
+  void add_geometry(Tessellation& t) const {
+    CoatSamples& s = t.samples;
+    const bool moved = !fields_.initial_control.empty();
+    if (masks_ && !request_.keep_shape) {
+      const std::vector<Point> control = refined(fields_.space->control());
+      s.position = combine(masks_->position, control);
+      s.normal = limit_normals(*masks_, control);
+      if (moved) s.drawn_at = combine(masks_->position, refined(fields_.initial_control));
+    } else {
+      s.position = flat(fields_.points);
+      s.normal = vertex_normals(t.triangles, s.position);
+      if (moved) s.drawn_at = flat(fields_.shape->points);
+    }
+  }
+
+  /// Those of the surface at the nodes of the run, linear between them.
+  void add_curvature(CoatSamples& samples) const {
+    PrincipalCurvatures k = fields_.space->geometry(SampleRule::vertices, true).curvature;
+    samples.curvature = {levels_.interpolated(std::move(k.k1), 1, run_level(), levels_.finest()),
+                         levels_.interpolated(std::move(k.k2), 1, run_level(), levels_.finest())};
+  }
+
+  const CoatFields& fields_;
+  const TessellationRequest& request_;
+  const Hierarchy levels_;
+  std::optional<LimitMasks> masks_;
+};
+
+}  // namespace
+
+TessellationRequest tessellation_request(const Look& look, const Paint& paint) {
+  const bool curvature =
+      std::ranges::any_of(paint.symbols(), [](const Symbol& s) { return s.kind == Symbol::Kind::curvature; });
+  return {look.keep_shape, look.detail, curvature};
+}
+
+Tessellation tessellate(const CoatFields& fields, const TessellationRequest& request) {
+  return Tessellator(fields, request).make();
+}
+
+}  // namespace pelage

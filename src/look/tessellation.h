@@ -1,0 +1,30 @@
+#pragma once
+// A surface with its fields as a mesh of samples: as fine as the colours need. What takes time is done here once; the
+// samples can then be painted again and again.
+
+#include "look/coat_fields.h"
+#include "look/palette.h"
+
+namespace pelage {
+
+struct Tessellation {
+  std::vector<Triangle> triangles;
+  CoatSamples samples;                ///< at the vertices
+  std::vector<Attribute> attributes;  ///< of the shape: its "color" is called "input_color"
+};
+
+/// Which tessellation a look asks for.
+struct TessellationRequest {
+  bool keep_shape = false;         ///< the flat triangles of the shape with its vertices first and unmoved, every point
+                                   ///< with the fields of the surface at the same barycentric coordinates
+  std::optional<int> detail = {};  ///< how often every triangle is split into four; default: as the pattern needs
+  bool curvature = false;          ///< whether the samples have any
+  bool operator==(const TessellationRequest&) const = default;
+};
+
+TessellationRequest tessellation_request(const Look& look, const Paint& paint);
+
+/// Error(Fault::usage) for a detail that needs more than 30 million triangles.
+Tessellation tessellate(const CoatFields& fields, const TessellationRequest& request);
+
+}  // namespace pelage

@@ -1,0 +1,21 @@
+#pragma once
+// The direction field of a stage with anisotropic diffusion.
+
+#include <optional>
+
+#include "direction/guides.h"
+#include "discretise/anisotropy.h"
+#include "shape/hierarchy.h"
+
+namespace pelage {
+
+/// Name of the vertex attribute (3 components) that gives a mesh its directions.
+inline constexpr const char* direction_attribute = "direction";
+
+/// Lines d d' at the vertices of the finest level, linear over the triangles of `shape`, which is level 0: those of the
+/// wish, or else of its attribute "direction", or else of its smoothest field of lines. Error(Fault::input) for an
+/// attribute of another size.
+std::vector<Tensor> vertex_lines(const TriangleMesh& shape, const std::optional<FieldWish>& wish,
+                                 const Hierarchy& hierarchy);
+
+}  // namespace pelage

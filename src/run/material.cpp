@@ -1,0 +1,152 @@
+#include "run/material.h"
+
+#include <algorithm>
+
+#include "react/place_values.h"
+#include "run/directions.h"
+#include "run/random_points.h"
+
+namespace pelage {
+
+namespace {
+
+bool reads(const std::vector<Symbol>& symbols, Symbol::Kind kind) {
+  return std::ranges::any_of(symbols, [&](const Symbol& s) { return s.kind == kind; });
+}
+
+/// What the textures that the stage reads say at the finest vertices, uv being linear over the triangles of the shape.
+VertexAttributes textures_at_nodes(const Program& program, const std::vector<Symbol>& symbols,
+                                   const Hierarchy& hierarchy) {
+  const std::vector<Texture> read = textures_read(symbols, program.textures);
+  if (read.empty()) return {};
+  Attribute uv = *program.shape->find("uv");
+  hierarchy.interpolate(uv, 0, hierarchy.finest());
+  const Topology& fine = hierarchy.topology(hierarchy.finest());
+  VertexAttributes values;
+  for (const Texture& texture : read)
+    values.merge(texture_attributes(texture, fine.triangles, static_cast<std::size_t>(fine.vertex_count), uv));
+  return values;
+}
+
+VertexAttributes attributes_of_mesh(const Program& program, const std::vector<Symbol>& symbols,
+                                    const Hierarchy& hierarchy) {
+  const VertexAttributes all = scalar_attributes(program.shape->attributes);
+  VertexAttributes read;
+  for (const Symbol& s : symbols)
+    if (const auto found = all.find(s.name); s.kind == Symbol::Kind::attribute && found != all.end())
+      read[s.name] = hierarchy.interpolated(found->second, 1, 0, hierarchy.finest());
+  read.merge(textures_at_nodes(program, symbols, hierarchy));
+  return read;
+}
+
+VertexAttributes attributes_at_nodes(const Program& program, const StageProgram& stage, const World& world,
+                                     const VertexAttributes& fields) {
+  const std::vector<Symbol> symbols = place_symbols(stage.model);
+  VertexAttributes attributes;
+  if (world.hierarchy()) attributes = attributes_of_mesh(program, symbols, *world.hierarchy());
+  for (const Symbol& s : symbols) {
+    if (s.kind != Symbol::Kind::attribute) continue;
+    if (const auto field = fields.find(s.name); field != fields.end()) attributes.insert(*field);
+    if (stage.points && s.name == points_attribute)
+      attributes[s.name] = distance_to_random_points(world.space().geometry(SampleRule::vertices, false).position,
+                                                     *stage.points, stage.seed);
+  }
+  return attributes;
+}
+
+/// The mask at the samples of a rule, as they are when the stage begins.
+std::vector<double> mask_at(const StageProgram& stage, const Space& space, SampleRule rule, const Material& material) {
+  const PlaceFields fields = place_fields(stage.model, space, rule, material.attributes);
+  return mask_values(stage.model, fields.places(material.at(rule), stage.length_unit), stage.seed);
+}
+
+/// Samples of the steppers that hold any are at the nodes: there coefficients are held instead, so that the field is
+/// exactly what it was wherever all that make it up are.
+void add_mask(const StageProgram& stage, const Space& space, Material& material) {
+  material.at_nodes.mask = mask_at(stage, space, SampleRule::vertices, material);
+  if (has_own_stiffness(stage.model))
+    material.at_quadrature_points.mask = mask_at(stage, space, SampleRule::quadrature, material);
+  for (const double m : material.at_nodes.mask) material.inside.push_back(m != 0);
+  material.held = std::make_shared<const Held>(stage.excluded ? space.interior(material.inside) : material.inside);
+}
+
+/// Initial places of the samples; none where they stay there, or nothing is drawn.
+std::vector<Point> drawn_at(const World& world, const std::vector<Symbol>& symbols, SampleRule rule) {
+  using Kind = Symbol::Kind;
+  const bool random = reads(symbols, Kind::uniform) || reads(symbols, Kind::gaussian) || reads(symbols, Kind::noise);
+  return world.surface() && random ? world.initial_positions(rule) : std::vector<Point>{};
+}
+
+/// The shape as it is now.
+TriangleMesh shape_now(const Program& program, const World& world) {
+  TriangleMesh shape = *program.shape;
+  shape.points = world.points();
+  return shape;
+}
+
+}  // namespace
+
+std::vector<Texture> textures_read(const std::vector<Symbol>& symbols, const std::vector<Texture>& textures) {
+  std::vector<Texture> read;
+  for (const Texture& texture : textures) {
+    const auto names = attribute_names(texture.name);
+    if (std::ranges::any_of(symbols, [&](const Symbol& s) {
+          return s.kind == Symbol::Kind::attribute && std::ranges::count(names, s.name) > 0;
+        }))
+      read.push_back(texture);
+  }
+  return read;
+}
+
+VertexAttributes texture_values(const std::vector<Texture>& textures, const TriangleMesh& mesh) {
+  VertexAttributes values;
+  for (const Texture& texture : textures)
+    values.merge(texture_attributes(texture, mesh.triangles, mesh.points.size(), *mesh.find("uv")));
+  return values;
+}
+
+bool has_own_stiffness(const Model& model, std::size_t i) {
+  return model.anisotropic(i) || !model.diffusion_constant(i);
+}
+
+bool has_own_stiffness(const Model& model) {
+  for (std::size_t i = 0; i < model.species_count(); ++i)
+    if (has_own_stiffness(model, i)) return true;
+  return false;
+}
+
+Places PlaceFields::places(const Material::AtSamples& material, double length_unit) const {
+  Places places{.positions = geometry.position,
+                .normals = geometry.normal,
+                .k1 = geometry.curvature.k1,
+                .k2 = geometry.curvature.k2};
+  for (const auto& [name, values] : attributes) places.attributes[name] = values;
+  places.length_unit = length_unit;
+  places.drawn_at = material.drawn_at;
+  places.mask = material.mask;
+  return places;
+}
+
+PlaceFields place_fields(const Model& model, const Space& space, SampleRule rule, const VertexAttributes& at_nodes) {
+  PlaceFields fields{space.geometry(rule, reads(place_symbols(model), Symbol::Kind::curvature)), at_nodes};
+  if (rule == SampleRule::quadrature)
+    for (auto& [name, values] : fields.attributes) values = space.at_quadrature_points(values);
+  return fields;
+}
+
+Material make_material(const Program& program, const StageProgram& stage, const World& world,
+                       const VertexAttributes& fields) {
+  const Space& space = world.space();
+  Material material;
+  material.attributes = attributes_at_nodes(program, stage, world, fields);
+  const std::vector<Symbol> symbols = place_symbols(stage.model);
+  material.at_nodes.drawn_at = drawn_at(world, symbols, SampleRule::vertices);
+  if (has_own_stiffness(stage.model) || stage.stepper->samples == SampleRule::quadrature)
+    material.at_quadrature_points.drawn_at = drawn_at(world, symbols, SampleRule::quadrature);
+  if (stage.model.anisotropic() && world.hierarchy())
+    material.lines = vertex_lines(shape_now(program, world), stage.directions, *world.hierarchy());
+  if (stage.model.held()) add_mask(stage, space, material);
+  return material;
+}
+
+}  // namespace pelage

@@ -1,0 +1,14 @@
+#pragma once
+// Progress of the work before a stage can begin.
+
+#include "base/progress.h"
+#include "pelage/error.h"
+
+namespace pelage {
+
+/// Error(Fault::cancelled) when the caller asks to stop.
+inline void report(const Progress& progress, std::string_view what, double fraction) {
+  if (progress && !progress(what, fraction)) throw Error(Fault::cancelled, "cancelled");
+}
+
+}  // namespace pelage

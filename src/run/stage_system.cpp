@@ -1,0 +1,195 @@
+#include "run/stage_system.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "discretise/anisotropy.h"
+#include "pelage/error.h"
+#include "time/step_support.h"
+
+namespace pelage {
+
+namespace {
+
+std::vector<const double*> pointers(const std::vector<Vector>& fields) {
+  std::vector<const double*> result;
+  for (const Vector& f : fields) result.push_back(f.data());
+  return result;
+}
+
+bool diffusion_varies_in_time(const Model& model, std::size_t i) {
+  return !model.anisotropic(i) && (model.diffusion_dependence(i) & ~static_cast<unsigned>(on_place)) != 0;
+}
+
+}  // namespace
+
+StageSystem::StageSystem(const StageProgram& stage, std::shared_ptr<const Space> space,
+                         std::shared_ptr<const Material> material)
+    : stage_(&stage), space_(std::move(space)), material_(std::move(material)) {
+  const SampledMass sampled = space_->sampled(stage.stepper->samples);
+  system_.mass = sampled.mass;
+  system_.sampling = sampled.sampling;
+  system_.held = material_->held;
+  kinetics_ = kinetics_at(stage.stepper->samples);
+  if (has_own_stiffness(stage.model)) {
+    quadrature_kinetics_ = kinetics_at(SampleRule::quadrature);
+    quadrature_values_ = space_->quadrature_values();
+  }
+  for (std::size_t i = 0; i < stage.model.species_count(); ++i) add_species(i);
+  couple_species();
+  add_reaction();
+}
+
+std::shared_ptr<const Kinetics> StageSystem::kinetics_at(SampleRule rule) const {
+  const PlaceFields fields = place_fields(stage_->model, *space_, rule, material_->attributes);
+  return std::make_shared<const Kinetics>(stage_->model, fields.places(material_->at(rule), stage_->length_unit),
+                                          stage_->seed);
+}
+
+void StageSystem::add_species(std::size_t i) {
+  const Model& model = stage_->model;
+  Species s;
+  s.name = model.species_name(i);
+  s.lower = model.lower(i);
+  s.upper = model.upper(i);
+  s.stiffness = space_->stiffness();
+  s.diffusion = stage_->length_unit * stage_->length_unit;  // model length^2 to world length^2
+  s.algebraic = model.algebraic(i);
+  if (const auto constant = model.diffusion_constant(i)) s.diffusion *= *constant;
+  system_.species.push_back(std::move(s));
+  if (has_own_stiffness(model, i)) fill_own_stiffness(i);
+}
+
+void StageSystem::couple_species() {
+  const Model& model = stage_->model;
+  const double scale = stage_->length_unit * stage_->length_unit;
+  CoupledSpecies& c = system_.coupled;
+  c.index = model.coupled();
+  c.stiffness = space_->stiffness();
+  const auto n = std::ssize(c.index);
+  c.diffusion.resize(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const std::size_t i = c.index[static_cast<std::size_t>(k)];
+    system_.species[i].coupled = true;
+    for (Eigen::Index l = 0; l < n; ++l)
+      c.diffusion(k, l) = scale * model.cross_diffusion(i, c.index[static_cast<std::size_t>(l)]);
+    c.diffusion(k, k) = system_.species[i].diffusion;
+  }
+}
+
+void StageSystem::add_reaction() {
+  system_.reaction.rates = [kinetics = kinetics_](const FieldPointers& u, double t, std::size_t begin, std::size_t end,
+                                                  const MutableFieldPointers& rate) {
+    kinetics->rates(u, t, begin, end, rate);
+  };
+  system_.reaction.split = [kinetics = kinetics_](const FieldPointers& u, double t, std::size_t begin, std::size_t end,
+                                                  const MutableFieldPointers& c2, const MutableFieldPointers& c3) {
+    kinetics->split(u, t, begin, end, c2, c3);
+  };
+  system_.weighted_mass = [space = space_](const Vector& factor) {
+    return space->weighted_mass(std::vector<double>(factor.begin(), factor.end()));
+  };
+}
+
+/// The stiffness of a species whose diffusion varies (with the initial state) or has directions.
+void StageSystem::fill_own_stiffness(std::size_t i) {
+  if (!stage_->model.anisotropic(i)) return fill_variable(i, nullptr);
+  const Kinetics::TensorField rates = quadrature_kinetics_->anisotropy(i);
+  Species& s = system_.species[i];
+  s.stiffness = std::make_shared<const SparseMatrix>(space_->stiffness(space_->tensors(material_->lines, rates)));
+  s.diffusion = stage_->length_unit * stage_->length_unit;
+}
+
+/// The variable coefficients of one species at its initial state, or at `state`.
+void StageSystem::fill_variable(std::size_t i, const State* state) {
+  Species& s = system_.species[i];
+  s.stiffness = std::make_shared<const SparseMatrix>(space_->stiffness(c1_at_quadrature(i, state)));
+  if (!stage_->model.varying_prefactor(i)) return;
+  s.weight = std::make_shared<const Vector>(system_.sampling->weight.cwiseQuotient(c0_at_samples(i, state)));
+  s.mass = std::make_shared<const SparseMatrix>(sampled_mass(*system_.sampling, *s.weight, system_.mass->pattern));
+}
+
+/// C0 and C1 of all species at the places of `kinetics`, for fields given there.
+StageSystem::Coefficients StageSystem::evaluate_diffusion(const Kinetics& kinetics, const std::vector<Vector>& fields,
+                                                          double time) {
+  const std::size_t count = kinetics.size();
+  Coefficients c;
+  std::vector<double*> c0_out, c1_out;
+  for (auto* list : {&c.c0, &c.c1}) list->assign(fields.size(), Vector(static_cast<Eigen::Index>(count)));
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    c0_out.push_back(c.c0[i].data());
+    c1_out.push_back(c.c1[i].data());
+  }
+  kinetics.diffusion(pointers(fields), time, 0, count, c0_out, c1_out);
+  return c;
+}
+
+/// The fields at the places of `kinetics`; initial ones stand in for a missing state.
+std::vector<Vector> StageSystem::fields_at(const Kinetics& kinetics, const SparseMatrix& values,
+                                           const State* state) const {
+  std::vector<Vector> fields(stage_->model.species_count());
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (state) {
+      fields[i] = values * state->now[i];
+    } else {
+      fields[i].resize(static_cast<Eigen::Index>(kinetics.size()));
+      kinetics.initial(i, std::span<double>(fields[i].data(), kinetics.size()));
+    }
+  }
+  return fields;
+}
+
+std::vector<double> StageSystem::c1_at_quadrature(std::size_t species, const State* state) const {
+  const Kinetics& kinetics = *quadrature_kinetics_;
+  const Vector c1 =
+      evaluate_diffusion(kinetics, fields_at(kinetics, quadrature_values_, state), state ? state->time : 0).c1[species];
+  if (!std::ranges::all_of(c1, [](double c) { return c >= 0; }))
+    throw Error(Fault::usage, "the diffusion of " + stage_->model.species_name(species) +
+                                  " is negative somewhere; it must be at least 0");
+  return {c1.begin(), c1.end()};
+}
+
+/// The matrices are divided by C0: where it is 0, a thousandth of its largest value stands in.
+constexpr double smallest_share_of_c0 = 1e-3;
+
+Vector StageSystem::c0_at_samples(std::size_t species, const State* state) const {
+  const Vector c0 =
+      evaluate_diffusion(*kinetics_, fields_at(*kinetics_, system_.sampling->values, state), state ? state->time : 0)
+          .c0[species];
+  const double largest = maximum(c0);
+  if (!std::ranges::all_of(c0, [](double c) { return c >= 0; }) || !(largest > 0))
+    throw Error(Fault::usage, "C0 of " + stage_->model.species_name(species) +
+                                  " is negative somewhere, or 0 everywhere; where it varies it must be at least 0");
+  return c0.cwiseMax(smallest_share_of_c0 * largest);
+}
+
+void StageSystem::update(const State& state) {
+  for (std::size_t i = 0; i < system_.species.size(); ++i)
+    if (diffusion_varies_in_time(stage_->model, i)) fill_variable(i, &state);
+}
+
+Vector StageSystem::sampled_coefficients(const std::function<void(std::span<double>)>& fill) const {
+  Vector samples(system_.sampling->count());
+  fill(std::span<double>(samples.data(), static_cast<std::size_t>(samples.size())));
+  return coefficients_from_samples(*system_.sampling, *system_.mass, samples);
+}
+
+/// Pinned and other values are two smooth fields; a jump between their samples would make the coefficients overshoot.
+std::vector<Vector> StageSystem::initial() const {
+  std::vector<Vector> coefficients;
+  for (std::size_t i = 0; i < stage_->model.species_count(); ++i) {
+    Vector& u = coefficients.emplace_back(sampled_coefficients([&](auto out) { kinetics_->initial(i, out); }));
+    if (!material_->inside.empty() && stage_->model.pinned(i)) {
+      const Vector pin = sampled_coefficients([&](auto out) { kinetics_->pin(i, out); });
+      for (Eigen::Index k = 0; k < u.size(); ++k)
+        if (material_->inside[static_cast<std::size_t>(k)]) u[k] = pin[k];
+    }
+    u = u.cwiseMax(stage_->model.lower(i)).cwiseMin(stage_->model.upper(i));
+  }
+  if (!solve_algebraic(system_, 0, coefficients, 1e-10).converged)
+    throw Error(Fault::numerics,
+                "the initial " + coupled_names(system_) + " cannot be found: the solve did not converge");
+  return coefficients;
+}
+
+}  // namespace pelage

@@ -1,0 +1,55 @@
+#pragma once
+// The equations of a stage on a space: what its steppers see.
+
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "discretise/anisotropy.h"
+#include "run/material.h"
+#include "time/system.h"
+
+namespace pelage {
+
+class StageSystem {
+ public:
+  /// Error(Fault::usage) for diffusions that are negative somewhere. The stage has to outlive it.
+  StageSystem(const StageProgram& stage, std::shared_ptr<const Space> space, std::shared_ptr<const Material> material);
+
+  const System& system() const { return system_; }
+  const Space& space() const { return *space_; }
+
+  /// Coefficients of the initial state.
+  std::vector<Vector> initial() const;
+  /// Brings diffusions that depend on time or on the fields up to date; to be called before every step.
+  void update(const State& state);
+
+  /// The largest ratio of the rates along and across of species i, which is anisotropic.
+  double anisotropy(std::size_t i) const { return largest_ratio(quadrature_kinetics_->anisotropy(i)); }
+
+ private:
+  struct Coefficients {
+    std::vector<Vector> c0, c1;
+  };
+  static Coefficients evaluate_diffusion(const Kinetics& kinetics, const std::vector<Vector>& fields, double time);
+  std::shared_ptr<const Kinetics> kinetics_at(SampleRule rule) const;
+  void add_species(std::size_t i);
+  void couple_species();
+  void add_reaction();
+  void fill_own_stiffness(std::size_t i);
+  void fill_variable(std::size_t i, const State* state);
+  Vector sampled_coefficients(const std::function<void(std::span<double>)>& fill) const;
+  std::vector<Vector> fields_at(const Kinetics& kinetics, const SparseMatrix& values, const State* state) const;
+  std::vector<double> c1_at_quadrature(std::size_t species, const State* state) const;
+  Vector c0_at_samples(std::size_t species, const State* state) const;
+
+  const StageProgram* stage_;
+  std::shared_ptr<const Space> space_;
+  std::shared_ptr<const Material> material_;
+  std::shared_ptr<const Kinetics> kinetics_;             ///< at the samples
+  std::shared_ptr<const Kinetics> quadrature_kinetics_;  ///< at the quadrature points, for diffusion that varies
+  SparseMatrix quadrature_values_;
+  System system_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,67 @@
+#include "run/world.h"
+
+#include "pelage/error.h"
+#include "run/stage_progress.h"
+
+namespace pelage {
+
+namespace {
+
+/// A finer mesh would need more than the memory of common machines: about 2 kB per Loop vertex.
+constexpr std::size_t max_triangles = 8'000'000;
+
+}  // namespace
+
+World::World(std::shared_ptr<const Program> program, const Progress& progress) : program_(std::move(program)) {
+  const TriangleMesh& shape = *program_->shape;
+  if (program_->motion.any()) surface_ = std::make_unique<MovingSurface>(shape, program_->motion);
+  report(progress, "refining", 0);
+  auto hierarchy =
+      std::make_shared<Hierarchy>(make_topology(shape.points.size(), shape.triangles), program_->method->refine);
+  hierarchy_ = hierarchy;
+  std::vector<Point> control = coarse_control(shape.points);
+  refine_to_edge(*hierarchy, control, program_->edge, max_triangles);
+  report(progress, "tabulating basis functions", 0.2);
+  space_ = program_->method->make_space(hierarchy_->shared_topology(levels()), std::move(control));
+}
+
+std::vector<Point> World::coarse_control(std::vector<Point> points) const {
+  const bool solve = program_->interpolate && program_->method->interpolate;
+  return solve ? program_->method->interpolate(hierarchy_->topology(0), points) : points;
+}
+
+World World::unmoved() const {
+  World copy(initial_control_.empty() ? space_ : space_->moved(initial_control_));
+  copy.program_ = program_;
+  copy.hierarchy_ = hierarchy_;
+  if (surface_) copy.surface_ = std::make_unique<MovingSurface>(*program_->shape, program_->motion);
+  return copy;
+}
+
+const std::vector<Point>& World::points() const {
+  return points_.empty() && program_ ? program_->shape->points : points_;
+}
+
+std::vector<Point> World::initial_positions(SampleRule rule) const {
+  const auto space = initial_control_.empty() ? space_ : space_->moved(initial_control_);
+  return space->geometry(rule, false).position;
+}
+
+bool World::follow(std::int64_t steps, double time) {
+  if (!surface_ || !surface_->advance(steps, time)) return false;
+  place(surface_->points());
+  return true;
+}
+
+void World::place(std::vector<Point> points) {
+  if (initial_control_.empty()) initial_control_ = space_->control();
+  points_ = std::move(points);
+  space_ = space_->moved(hierarchy_->refined(coarse_control(points_), 0, levels()));
+}
+
+void World::restore(MovingSurface::State state) {
+  surface_->restore(std::move(state));
+  place(surface_->points());
+}
+
+}  // namespace pelage

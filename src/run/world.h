@@ -1,0 +1,56 @@
+#pragma once
+// Where a run takes place: the levels of its shape and the space on the finest of them, made once for all stages, and
+// the surface on its way.
+
+#include <memory>
+
+#include "base/progress.h"
+#include "run/moving_surface.h"
+#include "run/program.h"
+
+namespace pelage {
+
+class World {
+ public:
+  /// Refines the shape and makes the space on it. Error(Fault::input) where that needs too many triangles.
+  explicit World(std::shared_ptr<const Program> program, const Progress& progress = {});
+  /// A space at rest that is not one of a mesh.
+  explicit World(std::shared_ptr<const Space> space) : space_(std::move(space)) {}
+  /// The same with a surface of its own that has not moved yet.
+  World unmoved() const;
+
+  const Space& space() const { return *space_; }
+  const std::shared_ptr<const Space>& shared_space() const { return space_; }
+  /// Null without a mesh.
+  const std::shared_ptr<const Hierarchy>& hierarchy() const { return hierarchy_; }
+  int levels() const { return hierarchy_ ? hierarchy_->finest() : 0; }
+
+  /// Null when the surface stays where it is.
+  const MovingSurface* surface() const { return surface_.get(); }
+  /// The vertices of the shape now [world units]; none without a mesh.
+  const std::vector<Point>& points() const;
+  /// Where samples are before the surface moves for the first time.
+  std::vector<Point> initial_positions(SampleRule rule) const;
+
+  /// Control points before the surface moved; empty if it has not.
+  const std::vector<Point>& initial_control() const { return initial_control_; }
+
+  /// Brings the surface to where it is for the time step after `steps` others, which ends at `time`; true if it has
+  /// moved, and the space is another one.
+  bool follow(std::int64_t steps, double time);
+  /// Another place of the same shape, for runs that go on from a checkpoint.
+  void place(std::vector<Point> points);
+  void restore(MovingSurface::State state);
+
+ private:
+  std::vector<Point> coarse_control(std::vector<Point> points) const;
+
+  std::shared_ptr<const Program> program_;
+  std::shared_ptr<const Hierarchy> hierarchy_;
+  std::unique_ptr<MovingSurface> surface_;
+  std::shared_ptr<const Space> space_;
+  // Of a surface that has moved:
+  std::vector<Point> points_, initial_control_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,83 @@
+#include "base/dense.h"
+#include "base/parallel.h"
+#include "time/step_support.h"
+
+namespace pelage {
+
+namespace {
+
+/// Eqs. (5)-(8) of Bajaj, Zhang, Xu 2008, which (14)-(15) spell out for the Turing system:
+///   (M - dt M[C2(u^n)] + dt K) u^(n+1) = M u^n + dt load(C3(u^n))
+/// with M, M[C2] and the load divided by C0 where it varies, and
+/// every coefficient taken at step n, also for the species solved second. (The L_ij printed below (14) and (15)
+/// have two signs exchanged; the weak forms (14), (15) and eq. (10) agree with this.)
+class SemiImplicitEuler final : public Stepper {
+ public:
+  StepReport step(const System& system, State& state, const StepRequest& request) override {
+    const double dt = request.dt;
+    StepReport report;
+    if (!system.coupled.index.empty() || system.held) {
+      report.failure = "semi-implicit Euler neither couples species by Laplacians nor holds any";
+      return report;
+    }
+    sample_fields(system, state.now, samples_);
+    split(system, state.time);
+    next_ = state.now;
+    for (std::size_t i = 0; i < system.species.size() && report.failure.empty(); ++i) {
+      const Species& species = system.species[i];
+      const SparseMatrix& mass = *mass_of(system, i);
+      const Vector over_c0 = weight_of(system, i).cwiseQuotient(system.sampling->weight);
+      const SparseMatrix reaction = system.weighted_mass(c2_[i].cwiseProduct(over_c0));
+      combine(1, mass, -dt, reaction, matrix_);
+      combine(1, matrix_, dt * species.diffusion, *species.stiffness, matrix_);
+      const Vector b = mass * state.now[i] + dt * load(*system.sampling, c3_[i].cwiseProduct(over_c0));
+      note_solve(conjugate_gradient(matrix_, Jacobi(diagonal(matrix_)), b, next_[i], nullptr,
+                                    {.tolerance = request.solver_tolerance}, work_),
+                 species.name, report);
+    }
+    advance(system, state, dt, next_, report);
+    return report;
+  }
+
+ private:
+  void split(const System& system, double t) {
+    FieldPointers u;
+    MutableFieldPointers c2, c3;
+    c2_.resize(samples_.size());
+    c3_.resize(samples_.size());
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      c2_[i].resize(samples_[i].size());
+      c3_[i].resize(samples_[i].size());
+      u.push_back(samples_[i].data());
+      c2.push_back(c2_[i].data());
+      c3.push_back(c3_[i].data());
+    }
+    parallel_for(static_cast<std::size_t>(system.sampling->count()),
+                 [&](std::size_t begin, std::size_t end) { system.reaction.split(u, t, begin, end, c2, c3); });
+  }
+
+  SparseMatrix matrix_;
+  ConjugateGradientWork<Vector> work_;
+  std::vector<Vector> samples_, c2_, c3_, next_;
+};
+
+Eigen::MatrixXd amplification(const Linearisation& l, double dt, const Eigen::MatrixXd& decay) {
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(decay.rows(), decay.rows());
+  const Eigen::MatrixXd c2 = l.c2.asDiagonal();
+  return solved(one - dt * c2 + dt * decay, one + dt * (l.jacobian - c2));
+}
+
+}  // namespace
+
+constexpr StepperKind semi_implicit = {
+    .name = "semi-implicit",
+    .alias = "paper",
+    .make = []() -> std::unique_ptr<Stepper> { return std::make_unique<SemiImplicitEuler>(); },
+    .samples = SampleRule::quadrature,
+    .adaptive = false,
+    .couples = false,
+    .holds = false,
+    .keeps_rates = false,
+    .amplification = amplification};
+
+}  // namespace pelage
