@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "base/number.h"
 #include "base/suggest.h"
@@ -20,6 +18,7 @@
 #include "look/ramp.h"
 #include "react/place_values.h"
 #include "react/stability.h"
+#include "recipe/document.h"
 #include "run/random_points.h"
 #include "shape/vectors.h"
 #include "time/stepper.h"
@@ -230,13 +229,7 @@ std::vector<std::string> recipe_names() {
 }
 
 Recipe load_recipe(const std::string& name_or_path) {
-  if (name_or_path.ends_with(extension)) {
-    std::ifstream file(name_or_path);
-    if (!file) throw Error(Fault::input, "cannot be read", {name_or_path});
-    std::ostringstream text;
-    text << file.rdbuf();
-    return parse_recipe(text.str(), name_or_path);
-  }
+  if (name_or_path.ends_with(extension)) return parse_recipe(read_text(name_or_path), name_or_path);
   for (const EmbeddedFile& f : embedded_files())
     if (f.path == std::string(recipe_folder) + name_or_path + std::string(extension))
       return parse_recipe(std::string(f.text), std::string(f.path));

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <functional>
+
 
 namespace pelage {
 namespace {
@@ -83,6 +86,18 @@ TEST(Document, FaultsOfTheFormat) {
             "r.toml:1:5: dates and times have no meaning here");
   EXPECT_EQ(error_of([] { read_document("/nonexistent.toml"); }, Fault::input),
             "/nonexistent.toml: cannot be read; check the path");
+}
+
+TEST(Document, FoldersAndLargeFilesAreNoDocuments) {
+  const std::filesystem::path folder = std::filesystem::path(PELAGE_BINARY_DIR) / "test-files" / "Document";
+  std::filesystem::create_directories(folder / "folder.toml");
+  const std::string large = (folder / "large.toml").string(), whole = (folder / "whole.toml").string();
+  std::ofstream(large) << std::string((1 << 20) + 1, '#');
+  std::ofstream(whole) << std::string(1 << 20, '#');
+  const std::string path = (folder / "folder.toml").string();
+  EXPECT_EQ(error_of([&] { read_document(path); }, Fault::input), path + ": is a folder; give the path of a .toml file");
+  EXPECT_EQ(error_of([&] { read_text(large); }, Fault::input), large + ": is larger than 1 MB; this is no model or recipe");
+  EXPECT_EQ(read_text(whole).size(), std::size_t{1 << 20});
 }
 
 }  // namespace

@@ -118,6 +118,9 @@ printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 nan 0\n3 0 1 2\n' >nan.off
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n' >index.obj
 expect 3 'missing.obj: cannot be opened' check missing.obj
 expect 3 'missing.toml: cannot be read' grow $sphere --recipe missing.toml -o a.ply
+mkdir -p folder.toml
+expect 3 'folder.toml: is a folder' grow $sphere --recipe folder.toml -o a.ply
+expect 3 'folder.toml: is a folder' grow $sphere --model folder.toml -o a.ply
 expect 3 'nan.off:5' check nan.off
 expect 3 'index.obj:4' grow index.obj -o a.ply
 expect 3 'nan.off: .*checkpoint' grow $sphere "${quick[@]}" --resume nan.off -o a.ply
