@@ -99,6 +99,9 @@ expect 2 '-n 3: expected COLUMNSxROWS' map schnakenberg --x d=5:6 --y a=0.1:0.2 
 expect 2 '.*no parameter "q"' map schnakenberg --x q=5:6 --y a=0.1:0.2
 expect 2 'parameter "d" is -5' map schnakenberg --x d=-5:-6 --y a=0.1:0.2
 expect 2 'the squares are .* wavelengths wide; give a side of at most' map schnakenberg --x d=15:16 --y a=0.1:0.2 --side 1e12
+expect 2 'a.png: a picture of 30000 x 30000 pixels is too large; at most' grow $sphere --picture a.png --picture-size 30000
+expect 2 'a.png: a picture of 48024 x 12630 pixels is too large' grow $sphere --fair --panels a.png --picture-size 12000
+expect 2 'a.png: a picture of 30000 x 30000 pixels is too large' field $sphere --picture a.png --picture-size 30000
 expect 2 'unknown species "w"' map schnakenberg --x d=5:6 --y a=0.1:0.2 --species w
 expect 2 'unknown recipe "dem".*did you mean "demo"' grow --recipe dem -o a.ply
 expect 2 'unknown ramp "leopart".*did you mean "leopard"' grow $sphere -o a.ply --ramp leopart
