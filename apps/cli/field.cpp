@@ -134,7 +134,10 @@ void report(const FieldCommand& o, const TriangleMesh& mesh, const DirectionFiel
 
 void run_field(const FieldCommand& o) {
   for (const std::string& path : o.outputs) check_mesh_path(path);
-  if (!o.picture.empty()) check_picture_path(o.picture);
+  if (!o.picture.empty()) {
+    check_picture_path(o.picture);
+    check_picture_size(o.size, o.size, o.picture);
+  }
   require_one_guide(o);
   catch_interrupts();
   ProgressBar bar(o.quiet || o.json ? ProgressBar::Style::none : ProgressBar::style_of_stderr());

@@ -14,6 +14,7 @@
 #include "io/read_shape.h"
 #include "io/write_mesh.h"
 #include "look/ramp.h"
+#include "panels.h"
 #include "settings.h"
 #include "shape/generators.h"
 #include "time/stepper.h"
@@ -24,8 +25,6 @@ namespace pelage {
 namespace {
 
 constexpr std::int64_t most_steps = 1'000'000'000'000;
-/// Every level makes four times as many triangles: beyond this no mesh fits into memory.
-constexpr int most_detail = 10;
 constexpr int most_threads = 1024;
 constexpr int largest_picture = 32768;
 
@@ -346,8 +345,15 @@ void check_outputs(const GrowOptions& options, const std::string& shape) {
     check_mesh_path(output);
     refuse_input_as_output(output, shape);
   }
-  if (!options.picture.empty()) check_picture_path(options.picture);
-  if (!options.panels.empty()) check_picture_path(options.panels);
+  if (!options.picture.empty()) {
+    check_picture_path(options.picture);
+    check_picture_size(options.picture_size, options.picture_size, options.picture);
+  }
+  if (!options.panels.empty()) {
+    check_picture_path(options.panels);
+    const auto [width, height] = size_of_panels(options.picture_size);
+    check_picture_size(width, height, options.panels);
+  }
   if (options.checkpoint.empty()) return;
   check_folder(options.checkpoint);
   refuse_input_as_output(options.checkpoint, shape);

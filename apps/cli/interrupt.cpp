@@ -1,12 +1,15 @@
 #include "interrupt.h"
 
+#include <atomic>
 #include <csignal>
 
 namespace pelage {
 
 namespace {
 
-volatile std::sig_atomic_t received = 0;
+/// Written by the handler, read by all threads that work.
+std::atomic<int> received = 0;
+static_assert(std::atomic<int>::is_always_lock_free, "a handler of signals must not wait for a lock");
 
 void remember(int signal) { received = signal; }
 

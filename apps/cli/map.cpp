@@ -145,6 +145,17 @@ Json cell_json(const MapCell& cell, const MapRequest& request) {
   return json;
 }
 
+const MapCell* first_failed(const ParameterMap& map) {
+  for (const MapCell& cell : map.cells)
+    if (cell.outcome == CellOutcome::failed) return &cell;
+  return nullptr;
+}
+
+/// "F = 0.04, k = 0.06".
+std::string place_of(const MapCell& cell, const MapRequest& request) {
+  return request.x.parameter + " = " + number(cell.x) + ", " + request.y.parameter + " = " + number(cell.y);
+}
+
 void report(const MapOptions& options, const MapRequest& request, const ParameterMap& map) {
   if (options.json) {
     Json cells = Json::array();
@@ -157,6 +168,8 @@ void report(const MapOptions& options, const MapRequest& request, const Paramete
   for (const MapCell& cell : map.cells) ++count[static_cast<int>(cell.outcome)];
   std::printf("cells     %zu: %zu with a pattern, %zu uniform, %zu failed\n", map.cells.size(), count[0], count[1],
               count[2]);
+  if (const MapCell* failed = first_failed(map))
+    std::printf("failed    %s\n", one_line(place_of(*failed, request) + ": " + failed->summary.message).c_str());
   std::printf("squares   of side %s in the model's length\n", number(map.side).c_str());
   std::printf("wrote     %s\n", options.output.c_str());
 }

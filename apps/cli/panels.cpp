@@ -37,6 +37,11 @@ Image side_by_side(const std::vector<Image>& images) {
 
 }  // namespace
 
+std::array<std::int64_t, 2> size_of_panels(int picture) {
+  constexpr std::int64_t panels = 4;
+  return {panels * (picture + gap) - gap, std::int64_t{picture} + caption_height(picture)};
+}
+
 Image four_panels(const Recipe& recipe, const TriangleMesh& noisy, const TriangleMesh& coupled,
                   const PictureOptions& picture, const Progress& progress) {
   const auto panel = [&](const TriangleMesh& mesh, const std::string& title, const std::string& words) {

@@ -1,11 +1,17 @@
 #pragma once
 // The four panels of Fig. 1 of Bajaj, Zhang, Xu 2008 from one noisy shape.
 
+#include <array>
+#include <cstdint>
+
 #include "look/picture.h"
 #include "pelage/recipe.h"
 #include "pelage/triangle_mesh.h"
 
 namespace pelage {
+
+/// Width and height of four panels of so many pixels across.
+std::array<std::int64_t, 2> size_of_panels(int picture);
 
 /// Side by side: the noisy shape, the faired one, the pattern of the recipe grown on the noisy shape, and `coupled`,
 /// the coat that grew while the shape was faired. Every panel in the size of `picture`. The third is grown here.

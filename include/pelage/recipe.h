@@ -103,6 +103,9 @@ struct Layer {
   std::optional<Given<std::string>> opacity;  ///< formula, 0..1; default 1
 };
 
+/// Every level of detail makes four times as many triangles: beyond this no mesh fits into memory.
+inline constexpr int most_detail = 10;
+
 /// How fields become colours and geometry.
 struct Look {
   std::optional<Given<std::string>> species;  ///< which one is shown; default: the last
@@ -110,7 +113,7 @@ struct Look {
   bool invert = false;        ///< exchange the ends of the ramp
   std::vector<Layer> layers;  ///< painted over it, the first one lowest
   bool keep_shape = false;    ///< the input's flat triangles instead of the limit surface
-  std::optional<int> detail;  ///< extra splits of every triangle into four; default: as the pattern needs
+  std::optional<int> detail;  ///< extra splits of every triangle into four, 0 to most_detail; default: as needed
 };
 
 struct Recipe {

@@ -3,7 +3,11 @@
 // chunks of fixed size, and sums are formed per chunk and then added in the order of the chunks.
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <exception>
+#include <limits>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -21,12 +25,41 @@ inline constexpr std::size_t default_chunk = 2048;
 
 inline std::size_t chunk_count(std::size_t n, std::size_t chunk = default_chunk) { return (n + chunk - 1) / chunk; }
 
-/// Calls body(chunk_index) for every chunk index below `count`, in any order, from several threads.
+/// The exception of the lowest chunk that fails. It is kept from TBB, which would report any one and cut loops inside
+/// the other chunks short without a word to them.
+class FirstFailure {
+ public:
+  template <class Body>
+  void run(std::size_t chunk, Body& body) {
+    if (chunk > chunk_) return;
+    try {
+      body(chunk);
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (chunk > chunk_) return;
+      chunk_ = chunk;
+      exception_ = std::current_exception();
+    }
+  }
+  void rethrow() const {
+    if (exception_) std::rethrow_exception(exception_);
+  }
+
+ private:
+  std::atomic<std::size_t> chunk_ = std::numeric_limits<std::size_t>::max();
+  std::mutex mutex_;
+  std::exception_ptr exception_;
+};
+
+/// Calls body(chunk_index) for every chunk index below `count`, in any order, from several threads. When chunks throw,
+/// the exception of the lowest one comes out, for any number of threads; chunks that have begun are finished first.
 template <class Body>
 void parallel_chunks(std::size_t count, Body&& body) {
 #ifdef PELAGE_HAS_TBB
   if (count > 1) {
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t c) { body(c); });
+    FirstFailure failure;
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t c) { failure.run(c, body); });
+    failure.rethrow();
     return;
   }
 #endif

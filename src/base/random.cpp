@@ -1,6 +1,9 @@
 #include "base/random.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "base/checked.h"
 
 namespace pelage {
 
@@ -18,6 +21,8 @@ double lattice_value(std::int64_t i, std::int64_t j, std::int64_t k, std::uint64
   return 2 * uniform(row, static_cast<std::uint64_t>(k)) - 1;
 }
 
+constexpr double furthest = 0x1p62;  // lattice points beyond have no numbers
+
 }  // namespace
 
 double smooth_noise(const std::array<double, 3>& place, double length, std::uint64_t seed) {
@@ -26,7 +31,7 @@ double smooth_noise(const std::array<double, 3>& place, double length, std::uint
   for (std::size_t d = 0; d < 3; ++d) {
     const double x = place[d] / length;
     const double floor = std::floor(x);
-    cell[d] = static_cast<std::int64_t>(floor) - 1;
+    cell[d] = saturated<std::int64_t>(std::clamp(floor, -furthest, furthest)) - 1;
     weight[d] = cubic_bspline(x - floor);
   }
   double sum = 0;

@@ -1,10 +1,8 @@
 #include "catalog/recipes.h"
 
-#include <fstream>
-#include <sstream>
-
 #include "base/suggest.h"
 #include "catalog/embedded.h"
+#include "recipe/document.h"
 
 namespace pelage {
 
@@ -23,13 +21,7 @@ std::vector<std::string> recipe_names() {
 }
 
 Recipe load_recipe(const std::string& name_or_path) {
-  if (name_or_path.ends_with(extension)) {
-    std::ifstream file(name_or_path);
-    if (!file) throw Error(Fault::input, "cannot be read", {name_or_path});
-    std::ostringstream text;
-    text << file.rdbuf();
-    return parse_recipe(text.str(), name_or_path);
-  }
+  if (name_or_path.ends_with(extension)) return parse_recipe(read_text(name_or_path), name_or_path);
   for (const EmbeddedFile& f : embedded_files())
     if (f.path == std::string(recipe_folder) + name_or_path + std::string(extension))
       return parse_recipe(std::string(f.text), std::string(f.path));

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/checked.h"
 #include "base/random.h"
 #include "linalg/conjugate_gradient.h"
 #include "pelage/error.h"
@@ -247,7 +248,7 @@ std::vector<int> singularity_indices(const Connection& c, int n, const std::vect
   std::vector<int> index(c.topology.triangles.size());
   for (Index f = 0; f < std::ssize(index); ++f) {
     const double sum = along(3 * f) + along(3 * f + 1) + along(3 * f + 2) + n * c.curvature(f);
-    index[at(f)] = static_cast<int>(std::lround(sum / (2 * pi)));
+    index[at(f)] = saturated<int>(std::round(sum / (2 * pi)));
   }
   return index;
 }

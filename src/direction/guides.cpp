@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "base/number.h"
 #include "discretise/curvature.h"
 #include "linalg/conjugate_gradient.h"
 #include "pelage/error.h"
@@ -141,13 +142,20 @@ Point scaled_gradient(const Triangle& t, const std::vector<Point>& points, const
 
 }  // namespace
 
+/// Half edges of the mesh from a point of a stroke to the next; from end to end a shape has some thousands.
+constexpr double most_halves = 2e5;
+
 std::vector<Guide> stroke_guides(const Connection& c, const std::vector<Point>& points,
                                  const std::vector<Point>& stroke) {
   std::map<Index, Point> direction;
   const double step = mean_edge(c, points) / 2;
   for (std::size_t k = 0; k + 1 < stroke.size(); ++k) {
     const Point d = difference(stroke[k + 1], stroke[k]);
-    const int parts = std::max(1, static_cast<int>(length(d) / std::max(step, 1e-300)));
+    const double halves = length(d) / std::max(step, 1e-300);
+    if (!(halves <= most_halves))
+      throw Error(Fault::usage, "a stroke is more than " + number(most_halves / 2) +
+                                    " edges of the mesh long; give its points in the coordinates of the shape");
+    const int parts = std::max(1, static_cast<int>(halves));
     for (int i = 0; i <= parts && length(d) > 0; ++i) {
       Point& sum = direction[nearest_vertex(c, points, combination(1, stroke[k], double(i) / parts, d))];
       sum = combination(1, sum, 1, unit(d));

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/checked.h"
 #include "base/random.h"
 #include "shape/generators.h"
 #include "shape/vectors.h"
@@ -129,6 +130,21 @@ class Tracer {
   const DirectionField& field_;
 };
 
+struct Box {
+  Point low{}, high{};
+};
+
+Box box_around(const std::vector<Point>& points) {
+  if (points.empty()) return {};
+  Box box{points[0], points[0]};
+  for (const Point& p : points)
+    for (std::size_t k = 0; k < 3; ++k) {
+      box.low[k] = std::min(box.low[k], p[k]);
+      box.high[k] = std::max(box.high[k], p[k]);
+    }
+  return box;
+}
+
 /// Places no two of which are nearer than `spacing`: darts, thrown evenly over the area, that keep their distance.
 std::vector<Place> scattered(const TriangleMesh& mesh, const Connection& c, double spacing) {
   std::vector<double> sum{0};
@@ -139,10 +155,13 @@ std::vector<Place> scattered(const TriangleMesh& mesh, const Connection& c, doub
   const auto darts = static_cast<std::uint64_t>(std::min(2e6, 12 * sum.back() / (spacing * spacing)));
   const DirectionField none;
   const Tracer tracer(mesh, c, none);
+  const Box box = box_around(mesh.points);
+  const double edge = std::max(spacing, length(difference(box.high, box.low)) / 1e6);  // cells have numbers of 32 bits
   std::map<std::array<int, 3>, std::vector<Point>> cells;
   const auto cell_of = [&](const Point& p) {
-    return std::array{static_cast<int>(std::floor(p[0] / spacing)), static_cast<int>(std::floor(p[1] / spacing)),
-                      static_cast<int>(std::floor(p[2] / spacing))};
+    std::array<int, 3> cell{};
+    for (std::size_t k = 0; k < 3; ++k) cell[k] = saturated<int>(std::floor((p[k] - box.low[k]) / edge));
+    return cell;
   };
   const auto is_free = [&](const Point& p) {
     const auto [x, y, z] = cell_of(p);
@@ -236,17 +255,6 @@ void draw_ribbon(Drawing& drawing, const Tracer& tracer, const std::vector<Place
   }
 }
 
-double diagonal_of(const TriangleMesh& mesh) {
-  if (mesh.points.empty()) return 0;
-  Point low = mesh.points[0], high = low;
-  for (const Point& p : mesh.points)
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], p[k]);
-      high[k] = std::max(high[k], p[k]);
-    }
-  return length(difference(high, low));
-}
-
 /// The whole stroke around a place, from its tail to its head.
 std::vector<Place> stroke(const Tracer& tracer, const Place& middle, const Point& heading, double length) {
   std::vector<Place> back = tracer.trace(middle, plus({}, -1, heading), length / 2);
@@ -261,8 +269,8 @@ std::vector<Place> stroke(const Tracer& tracer, const Place& middle, const Point
 TriangleMesh hatched(const TriangleMesh& mesh, const Connection& c, const DirectionField& field,
                      const HatchingOptions& options) {
   Drawing drawing(mesh, c);
-  const double diagonal = diagonal_of(mesh);
-  const double spacing = options.spacing > 0 ? options.spacing : diagonal / 50;
+  const Box box = box_around(mesh.points);
+  const double spacing = options.spacing > 0 ? options.spacing : length(difference(box.high, box.low)) / 50;
   const Tracer tracer(mesh, c, field);
   if (!(spacing > 0)) return drawing.finish();
   for (const Place& place : scattered(mesh, c, spacing)) {

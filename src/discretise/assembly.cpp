@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "base/parallel.h"
 #include "discretise/metric.h"
@@ -128,7 +130,28 @@ void stiffness_matrix(const ElementClass& c, Scratch& scratch, double* out) {
 
 }  // namespace
 
-void Assembler::build_rows(Index begin, Index end, const FunctionElements& incident, SparsePattern& part) {
+namespace {
+
+/// Do 16 bits number the entries of every row? The matrices that meet in a row bound its length.
+bool rows_are_short(const Discretisation& d, const FunctionElements& incident) {
+  constexpr std::int64_t longest = std::int64_t{std::numeric_limits<std::uint16_t>::max()} + 1;
+  if (d.unknowns <= longest) return true;
+  for (std::size_t row = 0; row + 1 < incident.start.size(); ++row) {
+    std::int64_t length = 0;
+    for (auto k = incident.start[row]; k < incident.start[row + 1]; ++k) {
+      const std::size_t e = at(incident.element[static_cast<std::size_t>(k)].first);
+      length += d.first_function[e + 1] - d.first_function[e];
+    }
+    if (length > longest) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+template <class Offset>
+void Assembler::build_rows(Index begin, Index end, const FunctionElements& incident, SparsePattern& part,
+                           std::vector<Offset>& offset) const {
   std::vector<Index> rank(at(d_.unknowns), -1);  // of a column in the current row
   std::vector<Index> columns;
   for (Index row = begin; row < end; ++row) {
@@ -149,8 +172,7 @@ void Assembler::build_rows(Index begin, Index end, const FunctionElements& incid
     for (std::size_t k = 0; k < columns.size(); ++k) rank[at(columns[k])] = static_cast<Index>(k);
     for_each_column([&](Index column, std::size_t e, Index local, std::int64_t other) {
       const std::int64_t n = d_.first_function[e + 1] - d_.first_function[e];
-      offset_[static_cast<std::size_t>(matrix_start_[e] + local * n + other)] =
-          static_cast<std::uint16_t>(rank[at(column)]);
+      offset[static_cast<std::size_t>(matrix_start_[e] + local * n + other)] = static_cast<Offset>(rank[at(column)]);
     });
     for (Index column : columns) rank[at(column)] = -1;
     part.column.insert(part.column.end(), columns.begin(), columns.end());
@@ -165,13 +187,19 @@ Assembler::Assembler(const Discretisation& discretisation) : d_(discretisation) 
     const std::int64_t n = d_.first_function[e + 1] - d_.first_function[e];
     matrix_start_.push_back(matrix_start_.back() + n * n);
   }
-  offset_.resize(static_cast<std::size_t>(matrix_start_.back()));
+  if (!rows_are_short(d_, incident)) offset_.emplace<std::vector<std::uint32_t>>();
+  std::visit([&](auto& offset) { build(incident, offset); }, offset_);
+}
+
+template <class Offset>
+void Assembler::build(const FunctionElements& incident, std::vector<Offset>& offset) {
+  offset.resize(static_cast<std::size_t>(matrix_start_.back()));
   const auto parts_count = static_cast<std::size_t>(concurrency());
   std::vector<SparsePattern> parts(parts_count);
   const auto rows_per_part = static_cast<Index>((at(d_.unknowns) + parts_count - 1) / parts_count);
   parallel_chunks(parts_count, [&](std::size_t p) {
     const Index begin = std::min(d_.unknowns, static_cast<Index>(p) * rows_per_part);
-    build_rows(begin, std::min(d_.unknowns, begin + rows_per_part), incident, parts[p]);
+    build_rows(begin, std::min(d_.unknowns, begin + rows_per_part), incident, parts[p], offset);
   });
   auto pattern = std::make_shared<SparsePattern>();
   pattern->rows = pattern->columns = d_.unknowns;
@@ -183,12 +211,27 @@ Assembler::Assembler(const Discretisation& discretisation) : d_(discretisation) 
   pattern_ = std::move(pattern);
 }
 
+namespace {
+
+/// Adds the rows of one element's matrix that belong to `owner`.
+template <class Offset>
+void add_rows(const double* matrix, const Offset* offset, const Index* function, std::size_t n, const SparsePattern& p,
+              std::size_t owner, std::size_t owners, std::vector<double>& value) {
+  constexpr std::size_t row_block = 64;  // rows are dealt to the threads in blocks, so that near rows stay together
+  for (std::size_t i = 0; i < n; ++i) {
+    if (at(function[i]) / row_block % owners != owner) continue;
+    double* row = value.data() + p.start[at(function[i])];
+    for (std::size_t j = 0; j < n; ++j) row[offset[i * n + j]] += matrix[i * n + j];
+  }
+}
+
+}  // namespace
+
 template <class ElementMatrix>
 SparseMatrix Assembler::assemble(const ElementMatrix& element_matrix) const {
   SparseMatrix result = zeros(pattern_);
   // Element matrices are kept for one chunk at a time: 16 MB for regular Loop elements.
   constexpr std::size_t chunk = 1 << 14;
-  constexpr std::size_t row_block = 64;  // rows are dealt to the threads in blocks, so that near rows stay together
   const auto owners = static_cast<std::size_t>(concurrency());
   std::vector<double> buffer;
   for (std::size_t first = 0; first < d_.elements(); first += chunk) {
@@ -203,17 +246,15 @@ SparseMatrix Assembler::assemble(const ElementMatrix& element_matrix) const {
         },
         256);
     parallel_chunks(owners, [&](std::size_t owner) {
-      for (std::size_t e = first; e < last; ++e) {
-        const double* matrix = buffer.data() + (matrix_start_[e] - matrix_start_[first]);
-        const std::uint16_t* offset = offset_.data() + matrix_start_[e];
-        const Index* function = d_.function.data() + d_.first_function[e];
-        const auto n = static_cast<std::size_t>(d_.first_function[e + 1] - d_.first_function[e]);
-        for (std::size_t i = 0; i < n; ++i) {
-          if (at(function[i]) / row_block % owners != owner) continue;
-          double* row = result.value.data() + pattern_->start[at(function[i])];
-          for (std::size_t j = 0; j < n; ++j) row[offset[i * n + j]] += matrix[i * n + j];
-        }
-      }
+      std::visit(
+          [&](const auto& offset) {
+            for (std::size_t e = first; e < last; ++e)
+              add_rows(buffer.data() + (matrix_start_[e] - matrix_start_[first]), offset.data() + matrix_start_[e],
+                       d_.function.data() + d_.first_function[e],
+                       static_cast<std::size_t>(d_.first_function[e + 1] - d_.first_function[e]), *pattern_, owner,
+                       owners, result.value);
+          },
+          offset_);
     });
   }
   return result;

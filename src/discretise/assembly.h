@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "discretise/discretisation.h"
@@ -17,7 +18,8 @@ namespace pelage {
 using Tensor = std::array<double, 6>;
 
 /// Connectivity of the matrices of a discretisation, made once and used for every matrix.
-/// Memory: 2 bytes per entry of all element matrices (288 bytes per regular Loop triangle) besides the pattern.
+/// Memory: 2 bytes per entry of all element matrices (288 bytes per regular Loop triangle) besides the pattern; 4 if a
+/// row could be longer than 16 bits can count.
 class Assembler {
  public:
   /// Keeps a reference to the discretisation.
@@ -38,12 +40,17 @@ class Assembler {
   struct Kernel;
   template <class ElementMatrix>
   SparseMatrix assemble(const ElementMatrix& element_matrix) const;
-  void build_rows(Index begin, Index end, const struct FunctionElements& incident, SparsePattern& part);
+  template <class Offset>
+  void build(const struct FunctionElements& incident, std::vector<Offset>& offset);
+  template <class Offset>
+  void build_rows(Index begin, Index end, const FunctionElements& incident, SparsePattern& part,
+                  std::vector<Offset>& offset) const;
 
   const Discretisation& d_;
   std::shared_ptr<const SparsePattern> pattern_;
   std::vector<std::int64_t> matrix_start_;  ///< per element + 1: where its matrix begins in offset_
-  std::vector<std::uint16_t> offset_;       ///< of an element matrix' entry within its row of the pattern
+  /// Of an element matrix' entry within its row of the pattern.
+  std::variant<std::vector<std::uint16_t>, std::vector<std::uint32_t>> offset_;
 };
 
 /// out(i, j) += sum over q of left(q, i) right(q, j): the product of two tables of basis functions (points x

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/checked.h"
 #include "base/parallel.h"
 #include "discretise/metric.h"
 
@@ -64,7 +65,7 @@ std::vector<Point> quadrature_gradients(const Discretisation& d, const std::vect
 
 SparseMatrix quadrature_values(const Discretisation& d) {
   auto pattern = std::make_shared<SparsePattern>();
-  pattern->rows = static_cast<std::int32_t>(d.first_point.back());
+  pattern->rows = checked_count<std::int32_t>(d.first_point.back(), "quadrature points");
   pattern->columns = d.unknowns;
   SparseMatrix b;
   std::vector<std::pair<Index, Index>> order;  // function, local number

@@ -3,12 +3,13 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <locale>
 #include <sstream>
 
+#include "base/ascii.h"
 #include "base/random.h"
 #include "pelage/error.h"
 #include "shape/split_corners.h"
@@ -91,7 +92,7 @@ int add_uv(tinygltf::Model& model, const Attribute& uv) {
 /// glTF asks that the names of an application's own attributes begin with an underscore.
 std::string custom_name(const std::string& name, const tinygltf::Primitive& primitive) {
   std::string clean = "_";
-  for (unsigned char c : name) clean += c < 128 && std::isalnum(c) ? static_cast<char>(std::toupper(c)) : '_';
+  for (char c : name) clean += is_letter_or_digit(c) ? to_upper(c) : '_';
   while (primitive.attributes.count(clean) != 0) clean += '_';
   return clean;
 }
@@ -150,6 +151,7 @@ tinygltf::Material coat_material(bool double_sided) {
 
 std::string to_bytes(const tinygltf::Model& model) {
   std::ostringstream stream;
+  stream.imbue(std::locale::classic());
   tinygltf::TinyGLTF gltf;
   constexpr bool pretty = false, binary = true;
   if (!gltf.WriteGltfSceneToStream(&model, stream, pretty, binary) || !stream)

@@ -1,12 +1,12 @@
 #include "io/ply_writer.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <set>
 
+#include "base/ascii.h"
 #include "base/srgb.h"
 #include "io/bytes.h"
 #include "shape/split_corners.h"
@@ -29,7 +29,7 @@ struct Column {
 std::string clean_name(const std::string& name, std::set<std::string>& used) {
   std::string clean = name.empty() ? "value" : name;
   for (char& c : clean)
-    if (!std::isalnum(static_cast<unsigned char>(c)) || static_cast<unsigned char>(c) > 127) c = '_';
+    if (!is_letter_or_digit(c)) c = '_';
   while (!used.insert(clean).second) clean += '_';
   return clean;
 }

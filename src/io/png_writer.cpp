@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/ascii.h"
 #include "base/srgb.h"
 #include "io/atomic_file.h"
 #include "pelage/error.h"
@@ -28,9 +29,24 @@ std::vector<std::uint8_t> to_bytes(const Image& image, const std::string& path) 
   return bytes;
 }
 
+/// stb numbers the bytes of the compressed file with an int and grows their array from 3 * 2^k - 1 to twice that and
+/// one: the last array that it can make holds 1.6e9. In the worst case 8 bits are coded by 9.
+constexpr std::int64_t most_bytes = 1'400'000'000;
+
 }  // namespace
 
+void check_picture_size(std::int64_t width, std::int64_t height, const std::string& path) {
+  const std::int64_t row = 3 * width + 1;  // one byte says how the row is filtered
+  if (height <= most_bytes / row) return;
+  throw Error(Fault::usage,
+              "a picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                  " pixels is too large; at most " + std::to_string(most_bytes / 3'000'000) +
+                  " million pixels can be written",
+              {path});
+}
+
 void write_png(const Image& image, const std::string& path) {
+  check_picture_size(image.width, image.height, path);
   const std::vector<std::uint8_t> bytes = to_bytes(image, path);
   std::string file;
   const auto append = [](void* context, void* data, int size) {
@@ -44,9 +60,7 @@ void write_png(const Image& image, const std::string& path) {
 
 void check_picture_path(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
-    return c == 'P' ? 'p' : c == 'N' ? 'n' : c == 'G' ? 'g' : c;
-  });
+  std::transform(extension.begin(), extension.end(), extension.begin(), to_lower);
   if (extension != ".png") throw Error(Fault::usage, "pictures are written as PNG; end the name in .png", {path});
   check_folder(path);
 }

@@ -1,11 +1,11 @@
 #include "io/read_shape.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <string_view>
 #include <utility>
 
+#include "base/ascii.h"
 #include "io/file_bytes.h"
 #include "io/gltf_reader.h"
 #include "io/obj_reader.h"
@@ -32,8 +32,7 @@ constexpr Format formats[] = {
 
 const Format& format_of(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(), to_lower);
   std::string known;
   for (const Format& format : formats) {
     if (extension == format.extension) return format;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <cstring>
 #include <utility>
 
+#include "base/ascii.h"
 #include "io/text_scanner.h"
 
 namespace pelage {
@@ -24,7 +24,7 @@ std::uint64_t binary_size(std::string_view bytes) {
 
 bool same_word(std::string_view word, std::string_view lower) {
   return std::equal(word.begin(), word.end(), lower.begin(), lower.end(),
-                    [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
+                    [](char a, char b) { return to_lower(a) == b; });
 }
 
 bool looks_like_text(std::string_view bytes) {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <span>
 
+#include "base/ascii.h"
 #include "base/number.h"
 #include "base/suggest.h"
 #include "io/atomic_file.h"
@@ -39,7 +39,7 @@ constexpr Writer writers[] = {
 
 std::string lower_extension(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (char& c : extension) c = to_lower(c);
   return extension;
 }
 

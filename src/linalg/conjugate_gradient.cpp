@@ -4,6 +4,7 @@
 #include <Eigen/SparseCore>
 #include <cmath>
 
+#include "base/checked.h"
 #include "base/number.h"
 #include "pelage/error.h"
 
@@ -21,9 +22,10 @@ Vector solve_spd(const SparseMatrix& a, const Vector& b, const ConjugateGradient
 
 Vector solve_general(const SparseMatrix& a, const Vector& b, double tolerance) {
   using EigenMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
+  const auto entries = checked_count<std::int32_t>(a.value.size(), "entries of a matrix");
   std::vector<std::int32_t> start(a.pattern->start.begin(), a.pattern->start.end());
-  const Eigen::Map<const EigenMatrix> matrix(a.rows(), a.columns(), static_cast<std::int32_t>(a.value.size()),
-                                             start.data(), a.pattern->column.data(), a.value.data());
+  const Eigen::Map<const EigenMatrix> matrix(a.rows(), a.columns(), entries, start.data(), a.pattern->column.data(),
+                                             a.value.data());
   Eigen::BiCGSTAB<EigenMatrix> solver;
   solver.setTolerance(tolerance);
   solver.compute(matrix);

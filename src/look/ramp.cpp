@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -95,13 +96,23 @@ Color linear_from_oklab(const std::array<double, 3>& lab) {
   return multiply(rgb_from_cones, cones);
 }
 
+namespace {
+
+/// Two hexadecimal digits.
+int hex_byte(const char* digits) {
+  int value = 0;
+  std::from_chars(digits, digits + 2, value, 16);
+  return value;
+}
+
+}  // namespace
+
 Color parse_hex_color(const std::string& hex) {
   const bool digits = hex.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
   if (hex.size() != 7 || hex[0] != '#' || !digits)
     throw Error(Fault::usage, "\"" + hex + "\" is not a colour; write it as \"#rrggbb\", for example \"#d8a05a\"");
   Color color{};
-  for (std::size_t k = 0; k < 3; ++k)
-    color[k] = linear_from_srgb(std::stoi(hex.substr(1 + 2 * k, 2), nullptr, 16) / 255.0);
+  for (std::size_t k = 0; k < 3; ++k) color[k] = linear_from_srgb(hex_byte(hex.data() + 1 + 2 * k) / 255.0);
   return color;
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "base/checked.h"
+#include "base/number.h"
 
 namespace pelage {
 
@@ -13,12 +15,6 @@ const std::string minus = "\u2212";
 std::string with_true_minus(std::string text) {
   if (text.starts_with('-')) text.replace(0, 1, minus);
   return text;
-}
-
-std::string format(const char* pattern, int digits, double value) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, pattern, digits, value);
-  return with_true_minus(buffer);
 }
 
 std::string superscript(int exponent) {
@@ -37,13 +33,14 @@ double round_step(double x) {
   return 10 * power;
 }
 
-int exponent_of(double x) { return static_cast<int>(std::floor(std::log10(x) + 1e-9)); }
+int exponent_of(double x) { return saturated<int>(std::floor(std::log10(x) + 1e-9)); }
 
 std::string tick_label(double value, double step, double largest) {
   const int exponent = exponent_of(largest), last = exponent_of(step);
-  if (exponent >= -4 && exponent < 6) return format("%.*f", std::max(0, -last), value);
+  if (exponent >= -4 && exponent < 6) return with_true_minus(fixed_number(value, -last));
   if (value == 0) return "0";
-  return format("%.*f", exponent - last, value / std::pow(10.0, exponent)) + "\u00b710" + superscript(exponent);
+  return with_true_minus(fixed_number(value / std::pow(10.0, exponent), exponent - last)) + "\u00b710" +
+         superscript(exponent);
 }
 
 }  // namespace
@@ -62,6 +59,6 @@ std::vector<Tick> round_ticks(double low, double high, int most) {
   return ticks;
 }
 
-std::string label_of(double value, int digits) { return format("%.*g", digits, value); }
+std::string label_of(double value, int digits) { return with_true_minus(number(value, digits)); }
 
 }  // namespace pelage

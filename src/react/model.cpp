@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/ascii.h"
 #include "base/fingerprint.h"
 #include "base/number.h"
 #include "base/suggest.h"
@@ -79,9 +80,8 @@ class Compiler {
  private:
   /// Refuses names that are no identifiers, reserved, or already taken.
   void claim(const std::string& name, const Location& where) {
-    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-    const auto is_part = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); };
-    if (name.empty() || !is_letter(name.front()) || !std::ranges::all_of(name, is_part))
+    const auto is_part = [](char c) { return is_letter_or_digit(c) || c == '_'; };
+    if (name.empty() || is_digit(name.front()) || !std::ranges::all_of(name, is_part))
       fail("\"" + name + "\" is not a name; use letters, digits and _, starting with a letter", where);
     if (std::ranges::count(reserved_names(), name) > 0)
       fail("\"" + name + "\" has a meaning in formulas already; choose another name", where);

@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "base/number.h"
 
 namespace pelage {
 
 namespace {
 
 /// Four significant digits: enough for a threshold.
-std::string text_of(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.4g", value);
-  return buffer;
-}
+std::string text_of(double value) { return number(value, 4); }
 
 double norm(const std::vector<double>& values) {
   double sum = 0;

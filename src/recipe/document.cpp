@@ -3,7 +3,9 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <fstream>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
 
 #include "base/suggest.h"
 
@@ -203,14 +205,19 @@ Value parse_document(std::string_view text, const std::string& file) {
   }
 }
 
-Value read_document(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw Error(Fault::input, "cannot be read; check the path", {path});
+std::string read_text(const std::string& path) {
+  std::error_code code;
+  if (std::filesystem::is_directory(path, code))
+    throw Error(Fault::input, "is a folder; give the path of a .toml file", {path});
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+  if (!file) throw Error(Fault::input, "cannot be read; check the path", {path});
   std::string text(largest_file + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
+  text.resize(std::fread(text.data(), 1, text.size(), file.get()));
+  if (std::ferror(file.get())) throw Error(Fault::input, "cannot be read to its end", {path});
   if (text.size() > largest_file) throw Error(Fault::input, "is larger than 1 MB; this is no model or recipe", {path});
-  return parse_document(text, path);
+  return text;
 }
+
+Value read_document(const std::string& path) { return parse_document(read_text(path), path); }
 
 }  // namespace pelage

@@ -70,7 +70,10 @@ struct Value::Entry {
 /// Parses a text; `file` is the name for messages. Error(usage) with line and column if it is not well-formed.
 Value parse_document(std::string_view text, const std::string& file);
 
-/// Reads and parses a file. Error(input) if it cannot be read or is larger than 1 MB.
+/// The text of a model or recipe. Error(input) if the file cannot be read, is a folder or is larger than 1 MB.
+std::string read_text(const std::string& path);
+
+/// Reads and parses a file.
 Value read_document(const std::string& path);
 
 }  // namespace pelage

@@ -17,11 +17,13 @@ void read_text(const Value& table, const std::string& key, Given<std::string>& t
   if (const Value* v = table.find(key)) target = given(*v);
 }
 
-/// A whole number that a double can hold exactly.
-std::int64_t whole_number(const Value& v, double least) {
+/// Doubles hold whole numbers up to here exactly.
+constexpr std::int64_t most_whole = 9'000'000'000'000'000;
+
+std::int64_t whole_number(const Value& v, std::int64_t least, std::int64_t most = most_whole) {
   const double x = v.number();
-  if (!(x >= least && x <= 9e15) || x != std::floor(x))
-    throw Error(Fault::usage, "expected a whole number of at least " + std::to_string(static_cast<int>(least)),
+  if (!(x >= static_cast<double>(least) && x <= static_cast<double>(most)) || x != std::floor(x))
+    throw Error(Fault::usage, "expected a whole number from " + std::to_string(least) + " to " + std::to_string(most),
                 v.where());
   return static_cast<std::int64_t>(x);
 }
@@ -185,7 +187,7 @@ Look read_look(const Value& table) {
   if (const Value* v = table.find("keep-shape")) look.keep_shape = v->boolean();
   if (const Value* v = table.find("layers"))
     for (const Value& layer : v->items()) look.layers.push_back(read_layer(layer));
-  if (const Value* v = table.find("detail")) look.detail = static_cast<int>(whole_number(*v, 0));
+  if (const Value* v = table.find("detail")) look.detail = static_cast<int>(whole_number(*v, 0, most_detail));
   return look;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/job_progress.h"
+#include "base/number.h"
 #include "base/parallel.h"
 #include "pelage/error.h"
 #include "shape/topology.h"
@@ -19,16 +20,34 @@ constexpr std::int64_t steps_per_slice = 20;
 /// With deviations this small against the fields nothing is left that could grow again.
 constexpr double dead_contrast = 1e-7;
 
-std::vector<Model> compile_cells(const MapRequest& request) {
-  std::vector<Model> models;
-  for (int j = 0; j < request.y.count; ++j)
-    for (int i = 0; i < request.x.count; ++i) {
-      Overrides overrides = request.settings;
-      overrides[request.x.parameter] = request.x.at(i);
-      overrides[request.y.parameter] = request.y.at(j);
-      models.push_back(compile(request.model, overrides));
-    }
-  return models;
+/// A finer mesh would fill the memory: it has six million triangles.
+constexpr double most_edges = 1600;
+
+/// work(), unless the cell has failed; an error of it makes the cell fail and leaves the others alone.
+template <class Work>
+void try_cell(MapCell& cell, Work&& work) {
+  if (cell.outcome == CellOutcome::failed) return;
+  try {
+    work();
+  } catch (const Error& error) {
+    if (error.fault() == Fault::cancelled) throw;
+    cell.outcome = CellOutcome::failed;
+    cell.summary.message = error.what();
+  }
+}
+
+Model compile_cell(const MapRequest& request, const MapCell& cell) {
+  Overrides overrides = request.settings;
+  overrides[request.x.parameter] = cell.x;
+  overrides[request.y.parameter] = cell.y;
+  return compile(request.model, overrides);
+}
+
+/// A fault that no cell is without is one of the request.
+void require_a_model(const MapRequest& request, const std::vector<MapCell>& cells) {
+  for (const MapCell& cell : cells)
+    if (cell.outcome != CellOutcome::failed) return;
+  compile_cell(request, cells.front());
 }
 
 /// The finest and the coarsest length that linear theory, or the model's file, gives.
@@ -71,7 +90,12 @@ void join_rows(TriangleMesh& mesh, Index lower, Index upper, Index end) {
 
 /// The unit square cut into equilateral triangles so small that no run refines them.
 TriangleMesh square(double wavelength, double resolution) {
-  const int edges = static_cast<int>(std::ceil(resolution / wavelength));
+  const double needed = std::ceil(resolution / wavelength);
+  if (!(needed <= most_edges))
+    throw Error(Fault::usage, "the squares are " + number(1 / wavelength) +
+                                  " wavelengths wide; give a side of at most " + number(most_edges / resolution) +
+                                  " wavelengths");
+  const int edges = std::max(1, static_cast<int>(needed));
   const int rows = static_cast<int>(std::ceil(edges * 2 / std::sqrt(3.0)));
   TriangleMesh mesh;
   Index lower = 0;
@@ -139,25 +163,29 @@ void run_cell(MapCell& cell, Program program, std::size_t species, const std::fu
   cell.outcome = cell.contrast < uniform_contrast ? CellOutcome::uniform : CellOutcome::pattern;
   if (run.summary().status == RunStatus::failed) cell.outcome = CellOutcome::failed;
   cell.fields = run.fields();
-  report(1);
 }
 
-std::vector<MapCell> empty_cells(const MapRequest& request, const std::vector<Model>& models) {
-  std::vector<MapCell> cells(models.size());
-  parallel_chunks(cells.size(), [&](std::size_t c) {
-    cells[c].x = request.x.at(static_cast<int>(c) % request.x.count);
-    cells[c].y = request.y.at(static_cast<int>(c) / request.x.count);
-    cells[c].linear = analyse(models[c]);
-  });
+std::vector<MapCell> empty_cells(const MapRequest& request) {
+  std::vector<MapCell> cells;
+  for (int j = 0; j < request.y.count; ++j)
+    for (int i = 0; i < request.x.count; ++i) {
+      cells.emplace_back().x = request.x.at(i);
+      cells.back().y = request.y.at(j);
+    }
   return cells;
 }
 
 }  // namespace
 
 ParameterMap run_map(const MapRequest& request, const Progress& progress) {
-  const std::vector<Model> models = compile_cells(request);
   ParameterMap map;
-  map.cells = empty_cells(request, models);
+  map.cells = empty_cells(request);
+  std::vector<Model> models(map.cells.size());
+  for (std::size_t c = 0; c < models.size(); ++c)
+    try_cell(map.cells[c], [&] { models[c] = compile_cell(request, map.cells[c]); });
+  require_a_model(request, map.cells);
+  parallel_chunks(models.size(),
+                  [&](std::size_t c) { try_cell(map.cells[c], [&] { map.cells[c].linear = analyse(models[c]); }); });
   const Lengths lengths = pattern_lengths(request, map.cells);
   map.side = request.side.value_or(wavelengths_per_side * lengths.longest);
   const auto shape = std::make_shared<const TriangleMesh>(
@@ -166,9 +194,12 @@ ParameterMap run_map(const MapRequest& request, const Progress& progress) {
   parallel_chunks(models.size(), [&](std::size_t c) {
     const auto report = [&](double fraction) { return jobs.report(c, fraction); };
     if (!report(0)) return;
-    Program program = cell_program(request, models[c], shape, lengths.shortest, map.side);
-    // Cells are too small to be shared among threads, and there are enough of them.
-    run_on_one_thread([&] { run_cell(map.cells[c], std::move(program), request.species, report); });
+    try_cell(map.cells[c], [&] {
+      Program program = cell_program(request, models[c], shape, lengths.shortest, map.side);
+      // Cells are too small to be shared among threads, and there are enough of them.
+      run_on_one_thread([&] { run_cell(map.cells[c], std::move(program), request.species, report); });
+    });
+    report(1);
   });
   if (jobs.cancelled()) throw Error(Fault::cancelled, "cancelled");
   return map;

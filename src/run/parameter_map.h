@@ -44,8 +44,10 @@ struct ParameterMap {
   std::vector<MapCell> cells;  ///< x runs fastest, from the lowest y
 };
 
-/// Runs all cells, on all threads; the same bits for any number of them. Error(Fault::usage) for unknown parameters,
-/// values out of range and models of which no length is known, before any work; Error(Fault::cancelled).
+/// Runs all cells, on all threads; the same bits for any number of them. A cell whose parameters are out of range, or
+/// whose run cannot begin, fails with the message and leaves the others alone. Error(Fault::usage), before any work,
+/// for faults of all cells (unknown parameters, say), models of which no length is known and squares too large for a
+/// mesh; Error(Fault::cancelled).
 ParameterMap run_map(const MapRequest& request, const Progress& progress = {});
 
 }  // namespace pelage

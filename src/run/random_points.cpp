@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "base/checked.h"
 #include "base/random.h"
 #include "shape/vectors.h"
 
@@ -14,12 +15,20 @@ namespace pelage {
 
 namespace {
 
-/// Points in cubes with edges as long as the distance that is looked at.
+/// Points in cubes with edges at least as long as the distance that is looked at, numbered from the lowest corner of
+/// the box around `positions`. Along its longest side lie no more than a million cubes: smaller ones hold no more than
+/// a point each anyway.
 class Cubes {
  public:
-  explicit Cubes(double edge) : edge_(edge) {}
+  Cubes(const std::vector<Point>& positions, double distance) : edge_(distance) {
+    if (!positions.empty()) low_ = positions[0];
+    for (const Point& p : positions)
+      for (std::size_t k = 0; k < 3; ++k) low_[k] = std::min(low_[k], p[k]);
+    for (const Point& p : positions)
+      for (std::size_t k = 0; k < 3; ++k) edge_ = std::max(edge_, (p[k] - low_[k]) / 1e6);
+  }
   void add(const Point& p) { cubes_[cube(p)].push_back(p); }
-  /// Distance to the nearest point, or infinity if all are further away than an edge.
+  /// Distance to the nearest point, or infinity if all are further away than the distance that is looked at.
   double distance(const Point& p) const {
     double nearest = std::numeric_limits<double>::infinity();
     const Key middle = cube(p);
@@ -36,10 +45,11 @@ class Cubes {
   using Key = std::array<std::int64_t, 3>;
   Key cube(const Point& p) const {
     Key key;
-    for (std::size_t k = 0; k < 3; ++k) key[k] = static_cast<std::int64_t>(std::floor(p[k] / edge_));
+    for (std::size_t k = 0; k < 3; ++k) key[k] = saturated<std::int64_t>(std::floor((p[k] - low_[k]) / edge_));
     return key;
   }
   double edge_;
+  Point low_{};
   std::map<Key, std::vector<Point>> cubes_;
 };
 
@@ -49,7 +59,7 @@ std::vector<double> distance_to_random_points(const std::vector<Point>& position
   std::vector<std::size_t> order(positions.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair{hash(seed, i), i}; });
-  Cubes chosen(spacing);
+  Cubes chosen(positions, spacing);
   for (const std::size_t i : order)
     if (chosen.distance(positions[i]) >= spacing) chosen.add(positions[i]);
   std::vector<double> distance;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/checked.h"
 #include "shape/edges.h"
 
 namespace pelage {
@@ -45,7 +46,7 @@ void report_near_copies(const NumberedMesh& work, std::vector<Finding>& findings
     if (!open[v]) continue;
     Cell c{{}, static_cast<std::int32_t>(v)};
     for (int k = 0; k < 3; ++k)
-      c.place[k] = static_cast<std::int64_t>(std::floor((mesh.points[v][k] - mesh.points[0][k]) / cell));
+      c.place[k] = saturated<std::int64_t>(std::floor((mesh.points[v][k] - mesh.points[0][k]) / cell));
     cells.push_back(c);
   }
   std::sort(cells.begin(), cells.end());

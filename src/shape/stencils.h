@@ -2,6 +2,7 @@
 // Linear combinations of control values: the form in which subdivision and limit evaluation are kept, so that
 // positions, concentrations and uv go through the same weights.
 
+#include <cstdint>
 #include <vector>
 
 #include "base/parallel.h"
@@ -12,7 +13,7 @@ namespace pelage {
 /// Row r is the sum of weight[k] * value[index[k]] over k in [start[r], start[r+1]).
 struct Stencils {
   Index columns = 0;
-  std::vector<Index> start{0};
+  std::vector<std::int64_t> start{0};
   std::vector<Index> index;
   std::vector<double> weight;
 
@@ -21,7 +22,7 @@ struct Stencils {
     index.push_back(i);
     weight.push_back(w);
   }
-  void end_row() { start.push_back(static_cast<Index>(index.size())); }
+  void end_row() { start.push_back(static_cast<std::int64_t>(index.size())); }
 };
 
 /// values: columns x components, tuple after tuple; result: rows x components.

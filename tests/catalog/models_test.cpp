@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <set>
 
@@ -155,6 +156,9 @@ TEST(Models, UnknownNames) {
   EXPECT_NE(error_of("qqq").find("there are baer-eiswirth"), std::string::npos);
   EXPECT_EQ(error_of("turing:prodution"), "unknown model \"turing:prodution\"; did you mean \"turing:production\"?");
   EXPECT_EQ(error_of("/none.toml", Fault::input), "/none.toml: cannot be read; check the path");
+  const std::string folder = std::string(PELAGE_BINARY_DIR) + "/test-files/models-test.toml";
+  std::filesystem::create_directories(folder);
+  EXPECT_EQ(error_of(folder + ":variant", Fault::input), folder + ": is a folder; give the path of a .toml file");
 }
 
 TEST(Models, DamagedTextsAreFaultsAndNothingWorse) {

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "direction/guides.h"
+#include "direction/hatching.h"
 #include "io/read_shape.h"
 #include "pelage/error.h"
 #include "shape/describe.h"
@@ -205,6 +206,29 @@ TEST(Guides, HarmonicFunctionRunsFromEndToEnd) {
   }
   EXPECT_THROW(harmonic_function(c, {1}, {}), Error);
   EXPECT_THROW(harmonic_function(c, {1}, {1}), Error);
+}
+
+TEST(Guides, StrokesThatLeaveTheShapeFarBehindAreRefused) {
+  const TriangleMesh mesh = builtin_shape("builtin:sphere?n=162");
+  const Connection c = connection_of(mesh);
+  for (const double far : {1e8, 1e300})
+    EXPECT_THROW(stroke_guides(c, mesh.points, {{1, 0, 0}, {far, 0, 0}}), Error) << far;
+  EXPECT_FALSE(stroke_guides(c, mesh.points, {{1, 0, 0}, {100, 0, 0}}).empty());
+}
+
+/// Strokes are drawn in the same places wherever the surface lies.
+TEST(Hatching, FarFromTheOrigin) {
+  TriangleMesh mesh = builtin_shape("builtin:sphere?n=162");
+  for (Point& p : mesh.points)
+    for (double& x : p) x = std::round(x * 1024) / 1024;  // exact after the shift
+  TriangleMesh away = mesh;
+  for (Point& p : away.points)
+    for (double& x : p) x += 0x1p28;
+  const auto strokes = [](const TriangleMesh& m) {
+    const Connection c = connection_of(m);
+    return hatched(m, c, direction_field(c, 2), {.spacing = 0.1}).triangles.size();
+  };
+  EXPECT_NEAR(static_cast<double>(strokes(away)) / static_cast<double>(strokes(mesh)), 1, 0.05);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "base/parallel.h"
@@ -209,6 +210,40 @@ TEST(Assembly, SameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(one.pattern()->column, several.pattern()->column);
   EXPECT_EQ(one.mass(mesh.points).value, mass.value);
   EXPECT_EQ(one.stiffness(mesh.points).value, stiffness.value);
+}
+
+/// A flat disc of `n` triangles around vertex 0, with corners on the unit circle.
+TriangleMesh fan(Index n) {
+  TriangleMesh mesh;
+  mesh.points.push_back({0, 0, 0});
+  for (Index i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * i / n;
+    mesh.points.push_back({std::cos(angle), std::sin(angle), 0});
+    mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % n});
+  }
+  return mesh;
+}
+
+/// Every entry is known in closed form, with the relative error of the area of such a thin triangle.
+TEST(Assembly, TheRowOfAHubHasNoLongestLength) {
+  const Index n = 70'000;  // more entries than 16 bits can number
+  const TriangleMesh mesh = fan(n);
+  const Discretisation d = discretise(mesh, "linear");
+  const Assembler assembler(d);
+  const SparseMatrix mass = assembler.mass(mesh.points), stiffness = assembler.stiffness(mesh.points);
+  const double angle = 2 * std::numbers::pi / n, area = std::sin(angle) / 2;
+  const Vector ones = Vector::Ones(n + 1), share = mass * ones, zero = stiffness * ones;
+  EXPECT_NEAR(share[0], n * area / 3, 1e-8);
+  EXPECT_NEAR(zero.cwiseAbs().maxCoeff(), 0, 1e-6);  // entries of the rim are as large as 1e4
+  for (Index i = 1; i <= n; ++i) {
+    const auto entry = [&](const SparseMatrix& a, Index row, Index column) {
+      return a.value[static_cast<std::size_t>(a.pattern->find(row, column))];
+    };
+    ASSERT_NEAR(share[i] / area, 2. / 3, 1e-6) << i;
+    ASSERT_NEAR(entry(mass, 0, i) / area, 1. / 6, 1e-6) << i;
+    ASSERT_EQ(entry(mass, 0, i), entry(mass, i, 0)) << i;
+    ASSERT_NEAR(entry(stiffness, 0, i) / std::tan(angle / 2), -1, 1e-6) << i;
+  }
 }
 
 }  // namespace

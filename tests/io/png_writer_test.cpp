@@ -39,6 +39,20 @@ TEST(PngWriter, RefusesWhatIsNotANumber) {
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
+/// A picture of the largest size is not written here; the limits are those of an int and of arrays that double.
+TEST(PngWriter, SizesAreCheckedFirst) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {1024, 1024}, {16384, 16384}, {21000, 21000}, {65536, 7000}})
+    EXPECT_NO_THROW(check_picture_size(width, height, "a.png")) << width;
+  for (const auto& [width, height] : {std::pair{32768, 32768}, {26754, 26754}, {131096, 32768}, {65536, 8000}}) try {
+      check_picture_size(width, height, "a.png");
+      FAIL() << "no error for " << width;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.fault(), Fault::usage);
+      EXPECT_NE(std::string(error.what()).find("at most 466 million pixels"), std::string::npos) << error.what();
+    }
+  EXPECT_THROW(write_png({40000, 40000, {}}, "a.png"), Error);
+}
+
 TEST(PngWriter, PathIsCheckedFirst) {
   EXPECT_NO_THROW(check_picture_path("a.PNG"));
   EXPECT_THROW(check_picture_path("a.jpg"), Error);

@@ -4,8 +4,10 @@
 #include <limits>
 #include <sstream>
 
+#include "io/read_shape.h"
 #include "io/written_meshes.h"
 #include "pelage/error.h"
+#include "support/decimal_comma.h"
 
 namespace pelage {
 namespace {
@@ -79,6 +81,23 @@ TEST(WriteMesh, NothingThatIsNotANumberReachesAFile) {
       expect_error(Fault::numerics, "the position is ", [&] { write_mesh(mesh, path); });
       EXPECT_FALSE(fs::exists(path));
     }
+  }
+}
+
+TEST(WriteMesh, TheSameBytesInEveryLocale) {
+  const fs::path folder = test::fresh_folder();
+  const TriangleMesh mesh = test::seamed_mesh();
+  for (const std::string& extension : mesh_extensions()) {
+    const fs::path here = folder / ("here" + extension), there = folder / ("there" + extension);
+    write_mesh(mesh, here.string());
+    {
+      const testing::DecimalComma elsewhere;
+      write_mesh(mesh, there.string());
+      if (extension != ".vtp") {
+        EXPECT_TRUE(test::same_places(read_shape(here.string()).mesh, read_shape(there.string()).mesh)) << extension;
+      }
+    }
+    EXPECT_EQ(contents(there), contents(here)) << extension;
   }
 }
 

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <functional>
+
+#include "pelage/recipe.h"
 
 namespace pelage {
 namespace {
@@ -83,6 +87,31 @@ TEST(Document, FaultsOfTheFormat) {
             "r.toml:1:5: dates and times have no meaning here");
   EXPECT_EQ(error_of([] { read_document("/nonexistent.toml"); }, Fault::input),
             "/nonexistent.toml: cannot be read; check the path");
+}
+
+TEST(Document, FoldersAndLargeFilesAreNoDocuments) {
+  const std::filesystem::path folder = std::filesystem::path(PELAGE_BINARY_DIR) / "test-files" / "Document";
+  std::filesystem::create_directories(folder / "folder.toml");
+  const std::string large = (folder / "large.toml").string(), whole = (folder / "whole.toml").string();
+  std::ofstream(large) << std::string((1 << 20) + 1, '#');
+  std::ofstream(whole) << std::string(1 << 20, '#');
+  const std::string path = (folder / "folder.toml").string();
+  EXPECT_EQ(error_of([&] { read_document(path); }, Fault::input),
+            path + ": is a folder; give the path of a .toml file");
+  EXPECT_EQ(error_of([&] { read_text(large); }, Fault::input),
+            large + ": is larger than 1 MB; this is no model or recipe");
+  EXPECT_EQ(read_text(whole).size(), std::size_t{1 << 20});
+}
+
+TEST(Recipe, WholeNumbersHaveLimits) {
+  const auto recipe = [](const std::string& look, const std::string& stage = "") {
+    return parse_recipe("[stage]\nmodel = \"turing\"\n" + stage + "\n[look]\n" + look, "r.toml");
+  };
+  EXPECT_EQ(recipe("detail = 10").look.detail, 10);
+  for (const std::string detail : {"-1", "1.5", "11", "1e12", "1e300", "inf", "nan"})
+    EXPECT_EQ(error_of([&] { recipe("detail = " + detail); }), "r.toml:5:10: expected a whole number from 0 to 10");
+  EXPECT_EQ(error_of([&] { recipe("", "seed = 1e16"); }),
+            "r.toml:3:8: expected a whole number from 0 to 9000000000000000");
 }
 
 }  // namespace

@@ -90,5 +90,57 @@ TEST(ParameterMap, StopsWhenAsked) {
   EXPECT_EQ(calls, 5);
 }
 
+/// Of four cells one begins; one has a diffusion that is negative somewhere, two have a parameter out of range.
+TEST(ParameterMap, CellsThatCannotBeginFailAlone) {
+  MapRequest request;
+  request.model = parse_model(R"~(
+name = "half"
+[species.u]
+diffusion = "1 + a*x"
+rate = "-u"
+initial = "1 + 0.1*noise(2)"
+[parameters]
+a = 0
+q = { value = 0, min = 0, max = 1 }
+)~",
+                              "half.toml");
+  request.x = {"a", 0, -2, 2};
+  request.y = {"q", 0, 2, 2};
+  request.side = 10;
+  request.until = 1;
+  const ParameterMap map = run_map(request);
+  ASSERT_EQ(map.cells.size(), 4u);
+  EXPECT_NE(map.cells[0].outcome, CellOutcome::failed) << map.cells[0].summary.message;
+  EXPECT_FALSE(map.cells[0].fields.coefficients.empty());
+  const char* const message[] = {"", "negative somewhere", "parameter \"q\" is 2", "parameter \"q\" is 2"};
+  for (std::size_t c = 1; c < 4; ++c) {
+    EXPECT_EQ(map.cells[c].outcome, CellOutcome::failed);
+    EXPECT_NE(map.cells[c].summary.message.find(message[c]), std::string::npos) << map.cells[c].summary.message;
+    EXPECT_TRUE(map.cells[c].fields.coefficients.empty());
+  }
+
+  request.y = {"q", 2, 3, 2};  // out of range everywhere
+  EXPECT_THROW(run_map(request), Error);
+}
+
+TEST(ParameterMap, SidesThatNoMeshFitsAreRefused) {
+  MapRequest request = schnakenberg_map();
+  for (const double side : {1e6, 1e12, 1e300}) {
+    request.side = side;
+    try {
+      run_map(request);
+      FAIL() << "no error";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.fault(), Fault::usage);
+      EXPECT_NE(std::string(error.what()).find("give a side of at most"), std::string::npos) << error.what();
+    }
+  }
+  for (const double side : {1e-3, 1e-300}) {  // whatever comes of them
+    request.side = side;
+    request.until = 1;
+    EXPECT_EQ(run_map(request).cells.size(), 4u);
+  }
+}
+
 }  // namespace
 }  // namespace pelage

@@ -268,5 +268,22 @@ TEST(RandomPoints, KeepTheirDistanceAndLeaveNoGap) {
   EXPECT_NE(distance, distance_to_random_points(positions, spacing, 2));
 }
 
+/// Neither where the surface lies nor how fine the points are asked for has a limit.
+TEST(RandomPoints, FarAwayAndFinerThanAnyMesh) {
+  std::vector<Point> positions = builtin_shape("builtin:torus?n=2000").points;
+  for (Point& p : positions)
+    for (double& x : p) x = std::round(x * 1024) / 1024;  // exact after the shift
+  const std::vector<double> here = distance_to_random_points(positions, 0.3, 1);
+  for (const double spacing : {1e-300, 1e-20, 1e-9})
+    EXPECT_EQ(distance_to_random_points(positions, spacing, 1), std::vector<double>(positions.size(), 0)) << spacing;
+  std::vector<Point> away = positions;
+  for (Point& p : away)
+    for (double& x : p) x += 0x1p40;
+  EXPECT_EQ(distance_to_random_points(away, 0.3, 1), here);
+  for (Point& p : away)
+    for (double& x : p) x *= 1e290;
+  EXPECT_EQ(distance_to_random_points(away, 1e-300, 1), std::vector<double>(positions.size(), 0));
+}
+
 }  // namespace
 }  // namespace pelage

@@ -97,7 +97,11 @@ expect 2 '--x d=5: expected PARAM=FROM:TO' map schnakenberg --x d=5 --y a=0.1:0.
 expect 2 '--x and --y both vary d' map schnakenberg --x d=5:6 --y d=5:6
 expect 2 '-n 3: expected COLUMNSxROWS' map schnakenberg --x d=5:6 --y a=0.1:0.2 -n 3
 expect 2 '.*no parameter "q"' map schnakenberg --x q=5:6 --y a=0.1:0.2
-expect 2 'parameter "d" is -5' map schnakenberg --x d=-5:6 --y a=0.1:0.2
+expect 2 'parameter "d" is -5' map schnakenberg --x d=-5:-6 --y a=0.1:0.2
+expect 2 'the squares are .* wavelengths wide; give a side of at most' map schnakenberg --x d=15:16 --y a=0.1:0.2 --side 1e12
+expect 2 'a.png: a picture of 30000 x 30000 pixels is too large; at most' grow $sphere --picture a.png --picture-size 30000
+expect 2 'a.png: a picture of 48024 x 12630 pixels is too large' grow $sphere --fair --panels a.png --picture-size 12000
+expect 2 'a.png: a picture of 30000 x 30000 pixels is too large' field $sphere --picture a.png --picture-size 30000
 expect 2 'unknown species "w"' map schnakenberg --x d=5:6 --y a=0.1:0.2 --species w
 expect 2 'unknown recipe "dem".*did you mean "demo"' grow --recipe dem -o a.ply
 expect 2 'unknown ramp "leopart".*did you mean "leopard"' grow $sphere -o a.ply --ramp leopart
@@ -118,6 +122,9 @@ printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 nan 0\n3 0 1 2\n' >nan.off
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n' >index.obj
 expect 3 'missing.obj: cannot be opened' check missing.obj
 expect 3 'missing.toml: cannot be read' grow $sphere --recipe missing.toml -o a.ply
+mkdir -p folder.toml
+expect 3 'folder.toml: is a folder' grow $sphere --recipe folder.toml -o a.ply
+expect 3 'folder.toml: is a folder' grow $sphere --model folder.toml -o a.ply
 expect 3 'nan.off:5' check nan.off
 expect 3 'index.obj:4' grow index.obj -o a.ply
 expect 3 'nan.off: .*checkpoint' grow $sphere "${quick[@]}" --resume nan.off -o a.ply
@@ -190,6 +197,8 @@ is_json stdout
 json '[c["outcome"] for c in d["cells"]] == ["uniform", "pattern"]'
 succeed "${map[@]}" -o one.png --threads 1
 grep -q '2: 1 with a pattern, 1 uniform, 0 failed' stdout || fail "map says: $(cat stdout)"
+succeed map schnakenberg --set b=0.9 --x d=-5:6 --y a=0.1:0.12 -n 2x1 --side 25 --until 1 -o out_of_range.png
+grep -q '^failed *d = -5, a = 0.1: .*parameter "d" is -5' stdout || fail "map does not say why a cell failed: $(cat stdout)"
 cmp map.png one.png || fail "1 and 2 threads give different maps"
 
 succeed gallery --recipes --shape builtin:sphere?n=100 --picture-size 64 -o coats spots-large --json

@@ -15,7 +15,7 @@ Topology of(const Refinement& r) { return make_topology(r.stencils.rows(), r.tri
 
 double row_sum(const Stencils& s, std::size_t row) {
   double sum = 0;
-  for (Index k = s.start[row]; k < s.start[row + 1]; ++k) sum += s.weight[k];
+  for (auto k = s.start[row]; k < s.start[row + 1]; ++k) sum += s.weight[k];
   return sum;
 }
 
