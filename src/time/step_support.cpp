@@ -56,6 +56,11 @@ namespace {
 /// No concentration gets there but by blowing up, and the 32-bit numbers of the output still hold it.
 constexpr double largest_value = 1e30;
 
+/// So far below `negligible` that nobody sees the jump to 0; squares are still numbers of full precision.
+constexpr double vanishing = 1e-120;
+
+double norm(const Vector& x) { return std::sqrt(dot(x, x)); }
+
 /// Number of the first coefficient that is too large or not a number, or -1.
 Eigen::Index first_blown_up(const Vector& x) {
   if (dot(x, x) <= largest_value * largest_value) return -1;
@@ -77,12 +82,15 @@ void advance(const System& system, State& state, double dt, std::vector<Vector>&
       report.failure = species.name + " grows beyond all bounds at vertex " + std::to_string(bad);
     if (!report.failure.empty()) return;
     next[i] = next[i].cwiseMax(species.lower).cwiseMin(species.upper);
-    report.minimum = std::min(report.minimum, next[i].minCoeff());
-    report.maximum = std::max(report.maximum, next[i].maxCoeff());
+    const double low = next[i].minCoeff(), high = next[i].maxCoeff(), largest = std::max(-low, high);
+    if (largest > 0 && largest < vanishing) next[i].setZero();
+    report.minimum = std::min(report.minimum, low);
+    report.maximum = std::max(report.maximum, high);
     if (species.algebraic) continue;  // follows the others, and may come to rest at a constant
     const Vector difference = next[i] - state.now[i];
     const Vector deviation = next[i].array() - next[i].mean();
-    const double amplitude = std::sqrt(dot(deviation, deviation)), moved = std::sqrt(dot(difference, difference));
+    const double least = negligible * std::sqrt(static_cast<double>(deviation.size()));
+    const double amplitude = std::max(norm(deviation), least), moved = norm(difference);
     if (moved > 0) report.change = std::max(report.change, moved / (amplitude * dt));
   }
   std::swap(state.now, next);
