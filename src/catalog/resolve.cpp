@@ -11,6 +11,7 @@
 #include "catalog/embedded.h"
 #include "catalog/models.h"
 #include "catalog/names.h"
+#include "catalog/size.h"
 #include "catalog/size_map.h"
 #include "catalog/stage_directions.h"
 #include "catalog/stage_model.h"
@@ -19,7 +20,6 @@
 #include "look/layers.h"
 #include "look/ramp.h"
 #include "react/place_values.h"
-#include "react/stability.h"
 #include "run/random_points.h"
 #include "shape/vectors.h"
 #include "time/stepper.h"
@@ -53,11 +53,6 @@ void require_places(const Model& model, const TriangleMesh& shape, const std::ve
     for (const Symbol& s : place_symbols(model))
       if (s.kind == Symbol::Kind::attribute && s.name.find('.') == std::string::npos) places.attributes[s.name] = {};
   Kinetics(model, places, 0);
-}
-
-double world_length(const std::optional<Given<Length>>& given, double diagonal) {
-  const Length length = given ? given->value : Length{default_size, true};
-  return length.relative ? length.value * diagonal : length.value;
 }
 
 /// The mesh is made for the largest size of the surface; beyond this there are other mistakes.
@@ -141,11 +136,12 @@ Program resolve_stage(const Recipe& recipe, std::size_t number, const TriangleMe
   p.stepper = stage.stepper.value;
   const double diagonal = bounding_diagonal(shape);
   if (!(diagonal > 0)) throw Error(Fault::input, "the shape has no extent: all its vertices are at one place");
-  p.size = world_length(stage.size, diagonal);
-  p.length_unit = p.size / model_wavelength(plain);
+  const StageSize size = stage_size(stage, plain, diagonal);
+  p.size = size.wavelength;
+  p.length_unit = size.length_unit;
   if (stage.directions) p.directions = resolve_directions(stage, p.model, shape, textures, diagonal);
   p.excluded = stage.inside.value == "excluded";
-  if (stage.points) p.points = world_length(stage.points, diagonal);
+  if (stage.points) p.points = world_length(stage.points->value, diagonal);
   const Suggestions& suggested = p.model.source().suggestions;
   p.step = stage.step;
   p.suggested_step = suggested.step.value_or(1);

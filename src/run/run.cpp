@@ -25,8 +25,8 @@ constexpr double step_factor = std::numbers::sqrt2;
 constexpr double first_step_fraction = 1.0 / 16;
 /// With steps below this share of the suggested one, fields grow to infinity in finite time: no step leads beyond.
 constexpr double smallest_step_fraction = 1e-9;
-/// A stage that takes so many times the steps of the suggested size, and some more for its start, is given up. The
-/// stiffest parameters of the shipped models with a pattern take 50 times as many.
+/// A stage that takes so many times the steps of the suggested size, and some more for its start, is given up. Shipped
+/// models with a parameter at the end of its range take up to 25 times as many.
 constexpr double most_steps = 100, few_steps = 1000;
 /// The residual lies far below the change of one step, which the warm start would otherwise swallow.
 constexpr double solver_tolerance = 1e-6;

@@ -8,6 +8,7 @@
 #include "catalog/models.h"
 #include "catalog/resolve.h"
 #include "react/stability.h"
+#include "react/wavelength.h"
 #include "shape/generators.h"
 #include "support/model_names.h"
 #include "verify/early_growth.h"
