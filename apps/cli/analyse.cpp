@@ -9,6 +9,7 @@
 #include "io/png_writer.h"
 #include "look/dispersion_plot.h"
 #include "react/turing_conditions.h"
+#include "react/wavelength.h"
 #include "run/resolution.h"
 #include "settings.h"
 #include "table.h"
@@ -50,8 +51,7 @@ Analysis make_analysis(Model model) {
   for (const std::vector<double>& state : a.stability.steady_states) a.states.push_back(analyse_at(a.model, state));
   a.conditions = turing_conditions(a.stability, a.species);
   a.thresholds = diffusion_thresholds(a.stability);
-  const auto& measured = a.model.source().wavelength;
-  a.wavelength = measured ? measured : a.stability.wavelength;
+  a.wavelength = known_wavelength(a.model);
   if (!a.wavelength || a.states.empty()) return a;
   const double resolution = a.model.source().suggestions.resolution_or_default();
   const double k2 = largest_k2_of_coarsest_mesh(*a.wavelength, resolution);
@@ -167,8 +167,9 @@ void print_waves(const Analysis& a) {
     rows.push_back({"fastest wavelength", "none: growth has no maximum at a finite wavelength"});
   }
   if (s.band_min) rows.push_back({"unstable band", band_text(s)});
-  if (a.model.source().wavelength)
-    rows.push_back({"spacing of patterns", number(*a.wavelength) + " (measured on finished patterns)"});
+  if (states_wavelength(a.model.source()))
+    rows.push_back({"spacing of patterns", a.wavelength ? number(*a.wavelength) + " (measured on finished patterns)"
+                                                        : "unknown with these parameters"});
   std::fputs(table(rows, 2).c_str(), stdout);
 }
 

@@ -75,6 +75,12 @@ void add_pattern_options(CLI::App& app, GrowOptions& o) {
                  "0.1m, 3in, or 1.5u in units of the file")
       ->type_name("LENGTH")
       ->group(group);
+  app.add_option(
+         "--unit", o.unit,
+         "Instead of --size, what one length unit of the model becomes: the model's own parameters then set the "
+         "spacing")
+      ->type_name("LENGTH")
+      ->group(group);
   app.add_option("--seed", o.seed, "Number of the random pattern (default: 1)")
       ->type_name("N")
       ->check(whole_number(0, std::numeric_limits<std::int64_t>::max()))
@@ -225,10 +231,12 @@ void apply_setting(const std::string& text, std::vector<Stage>& stages) {
   const std::size_t equals = std::min(text.find('='), text.size());
   std::string name = text.substr(0, equals);
   Stage& stage = stage_of(stages, name, "--set " + text);
-  if (name == "size" && equals < text.size())
+  if (name == "size" && equals < text.size()) {
     stage.size = {parse_length(text.substr(equals + 1), {}), {}};
-  else
+    stage.unit.reset();
+  } else {
     override_parameter(stage.parameters, parse_setting(name + text.substr(equals)));
+  }
 }
 
 /// What stands before and behind the first "="; `expected` is what the message asks for when one of them is missing.
@@ -261,21 +269,33 @@ void apply_texture(const std::string& text, std::vector<TextureFile>& textures) 
 
 /// The size of the first stage; those of the others keep their proportion to it.
 void apply_size(const Length& size, std::vector<Stage>& stages) {
+  if (stages.size() == 1) stages[0].unit.reset();
   const Length before = stages[0].size ? stages[0].size->value : Length{default_size, true};
   for (Stage& stage : stages) {
     const Length own = stage.size ? stage.size->value : Length{default_size, true};
-    if (own.relative != before.relative)
+    if (own.relative != before.relative || stage.unit)
       throw Error(Fault::usage,
                   "--size: the stages of the recipe have sizes of different kinds; use --set STAGE.size=");
     stage.size = {{own.value / before.value * size.value, size.relative}, {}};
   }
 }
 
+/// The model unit of the only stage, instead of a size.
+void apply_unit(const Length& unit, std::vector<Stage>& stages) {
+  if (stages.size() > 1)
+    throw Error(Fault::usage, "--unit: the recipe has several stages; give each of them its own in the recipe");
+  stages[0].size.reset();
+  stages[0].unit = {unit, {}};
+}
+
 void apply(const GrowOptions& o, std::vector<Stage>& stages) {
   if (o.model && stages.size() > 1)
     throw Error(Fault::usage, "--model: the recipe has several stages; give either a recipe or a model");
   override(o.model, stages[0].model);
+  if (o.size && o.unit)
+    throw Error(Fault::usage, "--size and --unit: give one of them, since the other follows from it");
   if (o.size) apply_size(parse_length(*o.size, {}), stages);
+  if (o.unit) apply_unit(parse_length(*o.unit, {}), stages);
   for (const std::string& text : o.settings) apply_setting(text, stages);
   for (const std::string& text : o.maps) apply_map(text, stages);
   for (Stage& stage : stages) {

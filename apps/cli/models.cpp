@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "react/stability.h"
+#include "react/wavelength.h"
 #include "table.h"
 #include "text.h"
 
@@ -26,8 +27,7 @@ struct Entry {
 Entry make_entry(const std::string& name, const ModelSource& source) {
   Entry entry{name, compile(source), {}, {}};
   entry.stability = analyse(entry.model);
-  const auto& measured = entry.model.source().wavelength;
-  entry.wavelength = measured ? measured : entry.stability.wavelength;
+  entry.wavelength = known_wavelength(entry.model);
   return entry;
 }
 
@@ -124,6 +124,14 @@ std::string growth(const Stability& s) {
          (s.oscillatory ? ", oscillating" : "");
 }
 
+/// With its formula as it goes on from there, and where it comes from.
+std::string wavelength_text(const Entry& e) {
+  const ModelSource& source = e.model.source();
+  std::string text = text_or(e.wavelength, "none");
+  if (source.wavelength_law) text += (source.wavelength ? ", else as " : " = ") + source.wavelength_law->text;
+  return text + (states_wavelength(source) ? " (measured on finished patterns)" : "");
+}
+
 void print_analysis(const Entry& e) {
   const Suggestions& suggested = e.model.source().suggestions;
   std::puts("\nAnalysis (lengths and times in the model's units)");
@@ -131,8 +139,7 @@ void print_analysis(const Entry& e) {
       {"steady state", steady_state(e)},
       {"critical wavelength", text_or(e.stability.wavelength, "none: the uniform state has no fastest wave")},
       {"fastest growth", growth(e.stability)},
-      {"wavelength used",
-       text_or(e.wavelength, "none") + (e.model.source().wavelength ? " (measured on finished patterns)" : "")},
+      {"wavelength used", wavelength_text(e)},
       {"time to a pattern", text_or(suggested.end, "not given")},
       {"largest step", text_or(suggested.step, "not given")},
       {"resolution", number(suggested.resolution_or_default()) + " vertices per wavelength at least"}};
@@ -211,6 +218,7 @@ Json to_json(const Entry& e) {
           {"definitions", definitions},
           {"parameters", parameters},
           {"wavelength", value(e.wavelength)},
+          {"wavelength_formula", source.wavelength_law ? Json(source.wavelength_law->text) : Json(nullptr)},
           {"critical_wavelength", value(e.stability.wavelength)},
           {"growth", json_number(e.stability.growth)},
           {"oscillatory", e.stability.oscillatory},

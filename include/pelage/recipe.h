@@ -72,6 +72,7 @@ struct Stage {
   std::optional<Given<Length>> points;      ///< spacing of random points; the formula `points` is the distance to the
                                             ///< nearest in spacings
   std::optional<Given<Length>> size;        ///< wanted wavelength of the pattern; default: 4 % of the diagonal
+  std::optional<Given<Length>> unit;        ///< instead of it: the length of the model's own length unit
   std::optional<Given<std::string>> size_map;  ///< formula of the place: factor on the size
   Given<std::string> method{"loop", {}};       ///< discretisation
   Given<std::string> stepper{"sbdf2", {}};

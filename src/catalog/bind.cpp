@@ -7,8 +7,8 @@
 #include "base/box.h"
 #include "catalog/images.h"
 #include "catalog/marks.h"
+#include "catalog/size.h"
 #include "react/place_values.h"
-#include "react/stability.h"
 #include "run/random_points.h"
 
 namespace pelage {
@@ -48,11 +48,6 @@ void require_attributes(const std::vector<Symbol>& symbols, std::vector<std::str
     if (s.kind == Symbol::Kind::attribute && s.name.find('.') == std::string::npos) require_attribute(s, known);
 }
 
-double world_length(const std::optional<Given<Length>>& given, double diagonal) {
-  const Length length = given ? given->value : Length{default_size, true};
-  return length.relative ? length.value * diagonal : length.value;
-}
-
 FieldWish bind_directions(const PlannedStage& planned, const MeshPlaces& places, double diagonal) {
   const Directions& d = *planned.asked.directions;
   FieldWish wish;
@@ -76,12 +71,13 @@ StageProgram bind_stage(const PlannedStage& planned, const Program& program, dou
   s.model = planned.model;
   s.model_name = asked.model.value;
   s.stepper = planned.stepper;
-  s.size = world_length(asked.size, diagonal);
-  s.length_unit = s.size / model_wavelength(planned.plain);
+  const StageSize size = stage_size(asked, planned.wavelength, diagonal);
+  s.size = size.wavelength;
+  s.length_unit = size.length_unit;
   s.step = asked.step;
   s.suggested_step = suggested.step.value_or(1);
   s.excluded = asked.inside.value == "excluded";
-  if (asked.points) s.points = world_length(asked.points, diagonal);
+  if (asked.points) s.points = world_length(asked.points->value, diagonal);
   s.until = planned.until;
   s.steps = asked.steps;
   s.stationary = asked.stationary.value_or(suggested.tolerance.value_or(0));

@@ -75,11 +75,22 @@ Suggestions suggestions(const Value& table) {
           suggested->optional_number("tolerance"), resolution};
 }
 
+bool has_number(const Value& table, const std::string& key) {
+  const Value* value = table.find(key);
+  return value && value->kind() == Value::Kind::number;
+}
+
+/// `wavelength` where it is a number.
 std::optional<double> wavelength(const Value& table) {
-  const auto value = table.optional_number("wavelength");
-  if (value && !(*value > 0))
-    throw Error(Fault::usage, "a wavelength must be greater than 0", table.at("wavelength").where());
+  if (!has_number(table, "wavelength")) return std::nullopt;
+  const double value = table.at("wavelength").number();
+  if (!(value > 0)) throw Error(Fault::usage, "a wavelength must be greater than 0", table.at("wavelength").where());
   return value;
+}
+
+/// `wavelength` where it is a formula.
+std::optional<Formula> wavelength_law(const Value& table) {
+  return has_number(table, "wavelength") ? std::nullopt : optional_formula(table, "wavelength");
 }
 
 VariantSource variant(const std::string& name, const Value& table) {
@@ -87,6 +98,7 @@ VariantSource variant(const std::string& name, const Value& table) {
                        .title = table.string_or("title", ""),
                        .parameters = {},
                        .wavelength = wavelength(table),
+                       .wavelength_law = wavelength_law(table),
                        .suggestions = suggestions(table),
                        .where = table.where()};
   if (const Value* parameters = table.find("parameters"))
@@ -109,6 +121,7 @@ ModelSource model(const Value& document) {
   result.cite = document.string_or("cite", "");
   result.summary = document.string_or("summary", "");
   result.wavelength = wavelength(document);
+  result.wavelength_law = wavelength_law(document);
   result.suggestions = suggestions(document);
   for_entries(document, "parameters",
               [&](auto& name, auto& value) { result.parameters.push_back(parameter(name, value)); });

@@ -7,8 +7,10 @@
 #include "base/suggest.h"
 #include "catalog/models.h"
 #include "catalog/names.h"
+#include "catalog/size.h"
 #include "catalog/stage_changes.h"
 #include "react/place_values.h"
+#include "react/wavelength.h"
 #include "run/program.h"
 #include "run/random_points.h"
 #include "shape/vectors.h"
@@ -126,13 +128,15 @@ PlannedStage plan_stage(const Stage& stage, const Stage& first, const std::vecto
   require_known(stage.inside, "way to treat the inside of a mask", {"frozen", "excluded"});
   require_same_method(first, stage);
   const ModelSource source = load_model(stage.model.value);
-  p.plain = compile(source, numbers_of(stage));  // faults of the model itself are found before those of the stage
+  const Model plain = compile(source, numbers_of(stage));  // its own faults are found before those of the stage
   const std::vector<std::string> fields = earlier_fields(before);
   p.model = compile(source, numbers_of(stage), stage_changes(source, stage, fields));
   require_fields(place_symbols(p.model), fields);
   require_stepper_can(*p.stepper, p.model, stage.stepper.where);
   if (stage.directions) plan_directions(*stage.directions, p);
   p.size_map = plan_size_map(stage, p.model);
+  require_one_size(stage);
+  p.wavelength = model_wavelength(plain);
   p.until = stage.until.value_or(source.suggestions.end.value_or(1000));
   return p;
 }

@@ -13,13 +13,10 @@
 
 namespace pelage {
 
-/// Default of Stage::size, as a fraction of the diagonal.
-inline constexpr double default_size = 0.04;
-
 struct PlannedStage {
   Stage asked;  ///< what the recipe says
-  Model plain;  ///< with its own numbers: what the unit of length follows from
   Model model;  ///< with what the stage changes in it
+  double wavelength = 0;  ///< of the model with its numbers, before formulas take the place of any [model length]
   const StepperKind* stepper = nullptr;
   std::optional<PlaceFormula> size_map;  ///< where a mesh alone tells it
   std::optional<PlaceFormula> from, to;  ///< of the directions

@@ -46,6 +46,7 @@ void apply_overrides(ModelSource& model, const Overrides& overrides) {
                (hint.empty() ? "it has " + (names.empty() ? "none" : join_names(names)) : hint),
            value.where);
     }
+    if (!found->reference) found->reference = found->value;
     found->value = value.value;
     require_in_range(*found, value.where);
   }
@@ -73,6 +74,7 @@ class Compiler {
     for (const SpeciesSource& species : source_.species) add_equation(species);
     for (std::size_t i = 0; i < source_.species.size(); ++i) check_coupling(i);
     require_nothing_held_is_coupled();
+    add_wavelength_law();
     add_jacobian();
     return std::move(equations_);
   }
@@ -357,6 +359,14 @@ class Compiler {
         fail("concentrations that are linked by lap() cannot be held", changes_.mask->where);
   }
 
+  void add_wavelength_law() {
+    if (!source_.wavelength_law) return;
+    const NodeId id = parse_formula(graph_, *source_.wavelength_law, scope_, "wavelength");
+    if ((graph_[id].dependence & (on_species | on_time)) || has_laplacian(graph_, id))
+      fail("a wavelength must be a number or made of parameters", source_.wavelength_law->where);
+    equations_.wavelength_law = id;
+  }
+
   void add_jacobian() {
     const std::size_t n = equations_.species.size();
     equations_.jacobian.resize(n * n);
@@ -390,7 +400,9 @@ ModelSource with_variant(ModelSource source, const std::string& variant) {
     names.push_back(candidate.name);
     if (candidate.name != variant) continue;
     apply_overrides(source, candidate.parameters);
+    for (ParameterSource& parameter : source.parameters) parameter.reference.reset();
     source.wavelength = candidate.wavelength;  // that of other parameter values says nothing about these
+    if (candidate.wavelength_law) source.wavelength_law = candidate.wavelength_law;
     const Suggestions& suggested = candidate.suggestions;
     if (suggested.step) source.suggestions.step = suggested.step;
     if (suggested.end) source.suggestions.end = suggested.end;

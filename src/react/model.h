@@ -50,6 +50,7 @@ struct ParameterSource {
   std::string unit;  ///< "1" or "" for a pure number
   std::string help;  ///< one line
   Location where;
+  std::optional<double> reference = {};  ///< that of the file or variant, where `value` was set to another
 };
 
 /// A named sub-expression. It may use parameters, species and definitions above it.
@@ -84,7 +85,8 @@ struct VariantSource {
   std::string name;
   std::string title;
   Overrides parameters;
-  std::optional<double> wavelength;
+  std::optional<double> wavelength;       ///< as in ModelSource
+  std::optional<Formula> wavelength_law;  ///< instead of the model's
   Suggestions suggestions;
   Location where;
 };
@@ -99,7 +101,10 @@ struct ModelSource {
   std::vector<ParameterSource> parameters;
   std::vector<DefinitionSource> definitions;
   std::vector<VariantSource> variants;
-  std::optional<double> wavelength;  ///< measured spacing of the finished pattern, model length units
+  std::optional<double> wavelength;       ///< measured spacing of the finished pattern at the values of the file or the
+                                          ///< variant, model length units
+  std::optional<Formula> wavelength_law;  ///< the spacing as a formula of the parameters. Beside a number, which then
+                                          ///< is that of a variant, only its ratios count. See model_wavelength().
   Suggestions suggestions;
 };
 
@@ -143,6 +148,7 @@ struct Equations {
   std::optional<NodeId> mask;              ///< likewise; not 0 where they are; rates and diffusions know it as a symbol
   std::vector<NodeId> jacobian;            ///< dR_i / du_j at [i * species + j]
   std::vector<double> lower, upper;        ///< bounds of the concentrations, infinite where there is none
+  std::optional<NodeId> wavelength_law;    ///< a number, unless a stage maps a parameter that is in it
 };
 
 /// A compiled model: an immutable value, cheap to copy.

@@ -318,14 +318,4 @@ std::complex<double> growth_rate(const Stability& stability, double wave_number)
   return sorted_eigenvalues(evolution(stability, wave_number * wave_number)).front();
 }
 
-double model_wavelength(const Model& model) {
-  if (model.source().wavelength) return *model.source().wavelength;
-  if (const auto critical = analyse(model).wavelength) return *critical;
-  throw Error(Fault::usage,
-              "model \"" + model.name() +
-                  "\" has no wavelength of its own with these parameters (no uniform state with a fastest growing "
-                  "wave); give `wavelength` in its file, or other parameters",
-              model.source().where);
-}
-
 }  // namespace pelage

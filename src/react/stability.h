@@ -38,8 +38,4 @@ Stability analyse_at(const Model& model, const std::vector<double>& steady_state
 /// Algebraic species are eliminated: J - k^2 D is then the Schur complement on the others.
 std::complex<double> growth_rate(const Stability& stability, double wave_number);
 
-/// Spacing of the pattern in model length units: the measured one of the model's file, otherwise the critical
-/// wavelength of the linear analysis. Error(usage) if there is neither.
-double model_wavelength(const Model& model);
-
 }  // namespace pelage

@@ -105,6 +105,7 @@ Stage read_stage(const Value& table, std::size_t count) {
   if (const Value* v = table.find("parameters"))
     for (const auto& [name, value] : v->entries()) s.parameters.push_back(read_parameter(name, *value));
   s.size = optional_length(table, "size");
+  s.unit = optional_length(table, "unit");
   s.size_map = optional_formula(table, "size-map");
   s.points = optional_length(table, "points");
   if (const Value* v = table.find("directions")) s.directions = read_directions(*v);

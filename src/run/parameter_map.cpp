@@ -7,6 +7,7 @@
 #include "base/number.h"
 #include "base/parallel.h"
 #include "pelage/error.h"
+#include "react/wavelength.h"
 #include "shape/topology.h"
 
 namespace pelage {
@@ -57,7 +58,8 @@ struct Lengths {
 
 Lengths pattern_lengths(const MapRequest& request, const std::vector<MapCell>& cells) {
   std::vector<double> lengths;
-  if (request.model.wavelength) lengths.push_back(*request.model.wavelength);
+  if (states_wavelength(request.model))
+    if (const auto own = known_wavelength(compile(request.model, request.settings))) lengths.push_back(*own);
   for (const MapCell& cell : cells)
     if (cell.linear.band_min) lengths.push_back(*cell.linear.wavelength);
   if (lengths.empty() && request.side) lengths.push_back(*request.side / wavelengths_per_side);

@@ -27,6 +27,9 @@ constexpr double step_factor = std::numbers::sqrt2;
 constexpr double first_step_fraction = 1.0 / 16;
 /// With steps below this share of the suggested one, fields grow to infinity in finite time: no step leads beyond.
 constexpr double smallest_step_fraction = 1e-9;
+/// A stage that takes so many times the steps of the suggested size, and some more for its start, is given up. Shipped
+/// models with a parameter at the end of its range take up to 25 times as many.
+constexpr double most_steps = 100, few_steps = 1000;
 /// The residual lies far below the change of one step, which the warm start would otherwise swallow.
 constexpr double solver_tolerance = 1e-6;
 
@@ -186,13 +189,16 @@ const RunSummary& Run::advance(std::int64_t steps) {
     const StepReport report = now_->stepper->step(system(), now_->state, request);
     now_->summary.iterations += report.iterations;
     if (report.accepted) {
-      accept(report);
+      accept(report, request.dt);
       ++k;
+      if (takes_too_long())
+        fail("the fields change so fast that the step is " + number(now_->step) + ", far below the model's of " +
+             number(p.suggested_step));
     } else if (p.adaptive() && request.dt > smallest_step_fraction * p.suggested_step) {
       ++now_->summary.rejected;
       now_->step = request.dt / 2;
     } else {
-      fail(report);
+      fail(report.failure.empty() ? "the fields change too fast for the smallest step" : report.failure);
     }
   }
   return now_->summary;
@@ -239,13 +245,14 @@ std::vector<double> Run::amounts() const {
   return amounts;
 }
 
-void Run::accept(const StepReport& report) {
+void Run::accept(const StepReport& report, double dt) {
   RunSummary& summary = now_->summary;
   summary.time = now_->state.time;
   summary.steps = now_->state.step;
   summary.minimum = report.minimum;
   summary.maximum = report.maximum;
-  summary.change = report.change;
+  // A step that the end cuts short divides what the solver leaves by little time.
+  if (2 * dt >= now_->step || now_->state.step == 1) summary.change = report.change;
   // The estimate grows with the third power of the step.
   const double room = step_factor * step_factor * step_factor * 1.2;
   const StageProgram& p = stage_program();
@@ -267,14 +274,20 @@ void Run::check_stop(const StageProgram& p, const World& world, Stage& stage) {
     summary.status = RunStatus::stationary;
 }
 
-void Run::fail(const StepReport& report) {
+/// Whether steps of the size that the stepper found will not reach the end in any sensible time.
+bool Run::takes_too_long() const {
+  const StageProgram& p = stage_program();
+  const double suggested = p.until / p.suggested_step;
+  return p.adaptive() && now_->summary.status == RunStatus::running &&
+         static_cast<double>(now_->state.step) > most_steps * suggested + few_steps;
+}
+
+void Run::fail(const std::string& reason) {
   const StageProgram& p = stage_program();
   RunSummary& summary = now_->summary;
   summary.status = RunStatus::failed;
   summary.message = (program_->stages.size() > 1 ? "stage " + p.name + ", step " : "step ") +
-                    std::to_string(now_->state.step + 1) + ", time " + number(now_->state.time) + ": " +
-                    (report.failure.empty() ? "the fields change too fast for the smallest step" : report.failure) +
-                    "; " +
+                    std::to_string(now_->state.step + 1) + ", time " + number(now_->state.time) + ": " + reason + "; " +
                     (p.step ? "halve the step or leave it to the stepper"
                             : "check the parameters of the model, or give a smaller --step");
 }

@@ -100,8 +100,9 @@ class Run {
   double next_step() const;
   void follow_surface(double time);
   void keep_amounts(const SparseMatrix& mass_before);
-  void accept(const StepReport& report);
-  void fail(const StepReport& report);
+  void accept(const StepReport& report, double dt);
+  bool takes_too_long() const;
+  void fail(const std::string& reason);
   static void check_stop(const StageProgram& program, const World& world, Stage& stage);
 
   std::shared_ptr<const Program> program_;

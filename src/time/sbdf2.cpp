@@ -38,6 +38,9 @@ class Sbdf2 final : public Stepper {
   Vector combined_, rhs_;
 };
 
+/// Sum of the squares of a field that is negligible.
+double negligible_square(const Vector& field) { return static_cast<double>(field.size()) * negligible * negligible; }
+
 Sbdf2::Scheme Sbdf2::scheme(const State& state, double dt) {
   if (state.past.empty()) return {1, 1, 0, dt, 0};
   const double w = dt / state.past_steps[0];
@@ -69,7 +72,7 @@ double Sbdf2::early_error(const System& system, const State& state, const std::v
     const double size = dot(now, now);
     if (size == 0 || system.species[i].algebraic) continue;
     const Vector change = next[i] - now;
-    worst = std::max(worst, dot(change, change) / size);
+    worst = std::max(worst, dot(change, change) / std::max(size, negligible_square(now)));
   }
   return worst;
 }
@@ -105,7 +108,7 @@ double Sbdf2::error_estimate(const System& system, const State& state, const std
       return sum;
     };
     const auto sums = ordered_sum(static_cast<std::size_t>(u0.size()), Eigen::Array2d{0, 0}, partial);
-    if (sums[1] > 0) worst = std::max(worst, std::sqrt(sums[0] / sums[1]));
+    if (sums[1] > 0) worst = std::max(worst, std::sqrt(sums[0] / std::max(sums[1], negligible_square(u0))));
   }
   return worst;
 }

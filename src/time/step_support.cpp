@@ -56,6 +56,9 @@ namespace {
 /// No concentration gets there but by blowing up, and the 32-bit numbers of the output still hold it.
 constexpr double largest_value = 1e30;
 
+/// So far below `negligible` that nobody sees the jump to 0; squares are still numbers of full precision.
+constexpr double vanishing = 1e-120;
+
 /// Number of the first coefficient that is too large or not a number, or -1.
 Eigen::Index first_blown_up(const Vector& x) {
   if (dot(x, x) <= largest_value * largest_value) return -1;
@@ -77,12 +80,15 @@ void advance(const System& system, State& state, double dt, std::vector<Vector>&
       report.failure = species.name + " grows beyond all bounds at vertex " + std::to_string(bad);
     if (!report.failure.empty()) return;
     next[i] = next[i].cwiseMax(species.lower).cwiseMin(species.upper);
-    report.minimum = std::min(report.minimum, minimum(next[i]));
-    report.maximum = std::max(report.maximum, maximum(next[i]));
+    const double low = minimum(next[i]), high = maximum(next[i]), largest = std::max(-low, high);
+    if (largest > 0 && largest < vanishing) next[i].setZero();
+    report.minimum = std::min(report.minimum, low);
+    report.maximum = std::max(report.maximum, high);
     if (species.algebraic) continue;  // follows the others, and may come to rest at a constant
     const Vector difference = next[i] - state.now[i];
     const Vector deviation = next[i].array() - sum(next[i]) / static_cast<double>(next[i].size());
-    const double amplitude = norm(deviation), moved = norm(difference);
+    const double least = negligible * std::sqrt(static_cast<double>(deviation.size()));
+    const double amplitude = std::max(norm(deviation), least), moved = norm(difference);
     if (moved > 0) report.change = std::max(report.change, moved / (amplitude * dt));
   }
   std::swap(state.now, next);

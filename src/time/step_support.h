@@ -15,7 +15,13 @@ void evaluate_rates(const System& system, const std::vector<Vector>& samples, do
 /// Replaces the coefficients of algebraic species by those that the evolving ones determine at time t.
 SolveReport solve_algebraic(const System& system, double t, std::vector<Vector>& coefficients, double tolerance);
 
-/// Moves the state to `next` (applying the clamps) unless it is not finite, and fills in change, minimum and maximum.
+/// Root mean square of the coefficients below which differences of a species count for nothing, so that one that decays
+/// is at rest in the end. No amount of matter is so small in any unit, and its squares are far from the smallest
+/// numbers.
+inline constexpr double negligible = 1e-80;
+
+/// Moves the state to `next` (applying the clamps) unless it is not finite, and fills in change, minimum and maximum. A
+/// species that lies far below `negligible` everywhere is 0 from then on: solvers cannot square smaller numbers.
 void advance(const System& system, State& state, double dt, std::vector<Vector>& next, StepReport& report);
 
 /// alpha M + beta K_i for one species, kept while alpha, beta and the matrices stay the same.

@@ -6,6 +6,7 @@
 #include "pelage/error.h"
 #include "react/kinetics.h"
 #include "react/stability.h"
+#include "react/wavelength.h"
 
 namespace pelage {
 
@@ -33,6 +34,7 @@ void read_and_use_model(std::string_view text) {
   try {
     const Model model = compile(parse_model(text, "fuzz.toml"));
     analyse(model);
+    known_wavelength(model);
     evaluate(model);
   } catch (const Error&) {  // NOLINT(bugprone-empty-catch): a fault of the text, reported
   }

@@ -56,7 +56,6 @@ TEST(Stability, TuringBandAboveRatioFour) {
 TEST(Stability, NoPatternWhenDiffusionsAreExchanged) {
   const Model model = compile(load_model("turing"), {{"Da", 0.03125}, {"Db", 0.125}});
   EXPECT_FALSE(analyse(model).wavelength);
-  EXPECT_NE(error_of([&] { model_wavelength(model); }).find("no wavelength"), std::string::npos);
 }
 
 /// Fastest wave number squared of two species, where d sigma / d q = 0: with c the mixed and a the diagonal entries,
@@ -187,14 +186,6 @@ TEST(Stability, AlgebraicSpeciesMayDiffuse) {
       "name='m'\nspecies.u={diffusion=0.1, rate='2*u - 3*w'}\nspecies.w={equals='u + 4*lap(w)'}", "m.toml")));
   for (const double k : {0.0, 0.7, 5.0})
     EXPECT_NEAR(growth_rate(s, k).real(), 2 - 0.1 * k * k - 3 / (1 + 4 * k * k), 1e-12);
-}
-
-TEST(Stability, FileWavelengthGoesFirst) {
-  ModelSource source = load_model("schnakenberg");
-  source.wavelength.reset();
-  EXPECT_NEAR(model_wavelength(compile(source)), 14.9, 0.1);
-  source.wavelength = 11.5;
-  EXPECT_EQ(model_wavelength(compile(source)), 11.5);
 }
 
 }  // namespace

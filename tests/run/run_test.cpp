@@ -144,6 +144,34 @@ TEST(Run, StopsExactlyAtTheGivenTime) {
   EXPECT_DOUBLE_EQ(run.summary().time, 10.1);
 }
 
+/// The last step is then so short that it says nothing about how fast the pattern changes.
+TEST(Run, ReportsTheChangeOfTheLastWholeStepWhereTheEndCutsItShort) {
+  const auto change_until = [](double time) {
+    Recipe recipe = small_recipe();
+    recipe.stages[0].step = 0.5;
+    recipe.stages[0].until = time;
+    auto run = start(recipe);
+    EXPECT_EQ(run.advance(100000).time, time);
+    return run.summary().change;
+  };
+  EXPECT_EQ(change_until(10.001), change_until(10));
+  EXPECT_NEAR(change_until(10.4), change_until(10.5), 0.02 * change_until(10.5));
+  EXPECT_GT(change_until(0.001), 0);
+}
+
+TEST(Run, GivesUpWhereTheStepsAreFarTooShortForTheTime) {
+  Program program = make_program(small_recipe("schnakenberg"), builtin_shape("builtin:sphere?n=162"));
+  program.stages[0].suggested_step = 100;  // where steps of a half are possible
+  program.stages[0].until = 2000;
+  program.stages[0].stationary = 0;
+  Run run(program);
+  run.advance(1'000'000);
+  EXPECT_EQ(run.summary().status, RunStatus::failed);
+  EXPECT_EQ(run.summary().steps, 3001);
+  EXPECT_NE(run.summary().message.find("the fields change so fast that the step is"), std::string::npos)
+      << run.summary().message;
+}
+
 TEST(Run, StopsWhenThePatternRests) {
   auto run = start(small_recipe());
   run.advance(100000);

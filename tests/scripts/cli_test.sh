@@ -83,6 +83,9 @@ expect 2 '--stationary: "-1" is not' grow $sphere -o a.ply --stationary -1
 expect 2 '--threads: "0" is not' grow $sphere -o a.ply --threads 0
 expect 2 '--up: unknown axis "q"' grow $sphere -o a.ply --up q
 expect 2 "'4x' is not a length" grow $sphere -o a.ply --size 4x
+expect 2 "'4x' is not a length" grow $sphere -o a.ply --unit 4x
+expect 2 '--size and --unit: give one of them' grow $sphere -o a.ply --size 0.3 --unit 0.1
+expect 2 'model "schnakenberg" is measured at the values of its file; with d = 5 it is unknown' grow $sphere -o a.ply --model schnakenberg --set d=5
 expect 2 '--set s: expected PARAM=VALUE' grow $sphere -o a.ply --set s
 expect 2 '--set s=1e: expected PARAM=VALUE' grow $sphere -o a.ply --set s=1e
 expect 2 'nothing to write' grow $sphere
@@ -241,9 +244,12 @@ succeed grow --recipe own.toml --set Da=0.15 --steps 1 --detail 0 -o a.ply --jso
 json 'd["stages"][0]["growth"]["steps"] == 1 and d["stages"][0]["parameters"]["s"] == 0.06 and d["stages"][0]["parameters"]["Da"] == 0.15'
 succeed grow --recipe own.toml --set s=0.07,Da=0.16 --size 1.5u --detail 0 -o a.ply --json
 json 'd["stages"][0]["growth"]["steps"] == 2 and d["stages"][0]["parameters"]["s"] == 0.07 and d["stages"][0]["parameters"]["Da"] == 0.16 and d["stages"][0]["size"] == 1.5'
+succeed grow --recipe own.toml --unit 0.2u --detail 0 -o a.ply --json
+json 'd["stages"][0]["length_unit"] == 0.2 and abs(d["stages"][0]["size"] - 0.2 * 2 * 3.141592653589793 * (0.03125 / 0.06) ** 0.5) < 1e-6'
 printf '[[stage]]\nname = "large"\nmodel = "turing"\nsize = 0.4\nsteps = 2\n[[stage]]\nmodel = "turing"\nsize = 0.2\nsteps = 3\nmask = "large.b < 4"\n' >two.toml
 succeed grow $sphere --recipe two.toml --set large.s=0.06 --set stage2.size=1u --detail 0 -o a.ply --json
 json '[s["growth"]["steps"] for s in d["stages"]] == [2, 3] and d["stages"][0]["parameters"]["s"] == 0.06 and d["stages"][1]["size"] == 1'
+expect 2 '--unit: the recipe has several stages' grow $sphere --recipe two.toml --unit 0.1 -o a.ply
 succeed grow $sphere --recipe two.toml --size 0.6 --detail 0 -o a.ply --json
 json 'abs(d["stages"][1]["size_of_diagonal"] - 0.3) < 1e-9'
 expect 2 '.*several stages; write STAGE.s=' grow $sphere --recipe two.toml --set s=0.06 -o a.ply

@@ -229,5 +229,26 @@ TEST(Sbdf2, KeepsItsOrderWhenStepsVary) {
   EXPECT_NEAR(std::log2(error(8) / error(16)), 2, 0.15);
 }
 
+/// du/dt = -u: exp(-400) is far below what can be squared.
+TEST_P(EveryStepper, ASpeciesThatDecaysToNothingCostsNoSteps) {
+  Bench setup(GetParam(), "builtin:sphere?n=42");
+  setup.add_species("u", 0.01, 0);
+  setup.add_species("v", 0.01, 1);
+  setup.state.now[0] = tilted(setup.problem.control);
+  setup.set_reaction([](const std::vector<double>&, std::vector<double>& c2, std::vector<double>& c3) {
+    c2 = {-1, 0};
+    c3 = {0, 0};
+  });
+  const auto stepper = make_stepper(GetParam());
+  for (int k = 0; k < 2000; ++k) {
+    const StepReport report = stepper->step(setup.system, setup.state, {.dt = 0.2, .solver_tolerance = 1e-6});
+    ASSERT_TRUE(report.accepted) << k << report.failure;
+    ASSERT_LE(report.error, 0.05) << k;
+    ASSERT_LE(report.change, 1e3) << k;
+  }
+  EXPECT_EQ(setup.state.now[0].cwiseAbs().maxCoeff(), 0);
+  EXPECT_NEAR(setup.state.now[1].minCoeff(), 1, 1e-4);
+}
+
 }  // namespace
 }  // namespace pelage

@@ -9,6 +9,7 @@
 #include "catalog/bind.h"
 #include "catalog/models.h"
 #include "react/stability.h"
+#include "react/wavelength.h"
 #include "shape/generators.h"
 #include "support/model_names.h"
 #include "verify/early_growth.h"
