@@ -25,7 +25,6 @@ namespace {
 constexpr std::int64_t most_steps = 1'000'000'000'000;
 /// Every level makes four times as many triangles: beyond this no mesh fits into memory.
 constexpr int most_detail = 10;
-constexpr int most_threads = 1024;
 constexpr int largest_picture = 32768;
 
 std::string choices(const std::vector<std::string>& names) { return ": " + join_names(names); }

@@ -1,9 +1,9 @@
 #pragma once
 // The four panels of Fig. 1 of Bajaj, Zhang, Xu 2008 from one noisy shape.
 
-#include "look/picture.h"
 #include "pelage/recipe.h"
 #include "pelage/triangle_mesh.h"
+#include "render/picture.h"
 
 namespace pelage {
 

@@ -4,14 +4,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
-
-#ifdef PELAGE_HAS_TBB
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-#endif
 
 namespace pelage {
 
@@ -21,16 +16,17 @@ inline constexpr std::size_t default_chunk = 2048;
 
 inline std::size_t chunk_count(std::size_t n, std::size_t chunk = default_chunk) { return (n + chunk - 1) / chunk; }
 
-/// Calls body(chunk_index) for every chunk index below `count`, in any order, from several threads.
+/// Calls body(chunk_index) for every chunk index below `count`, in any order, from several threads. All that knows of
+/// threads is in parallel.cpp.
+void on_all_threads(std::size_t count, const std::function<void(std::size_t)>& body);
+
+/// The same; a single chunk is spared the call through a pointer.
 template <class Body>
 void parallel_chunks(std::size_t count, Body&& body) {
-#ifdef PELAGE_HAS_TBB
-  if (count > 1) {
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t c) { body(c); });
-    return;
-  }
-#endif
-  for (std::size_t c = 0; c < count; ++c) body(c);
+  if (count > 1)
+    on_all_threads(count, std::ref(body));  // by reference: no copy, no allocation
+  else if (count == 1)
+    body(std::size_t{0});
 }
 
 /// Calls body(begin, end) for consecutive sub-ranges that cover [0, n). Iterations must be independent.
@@ -55,14 +51,7 @@ int concurrency();
 
 /// Calls body() so that all parallel work inside runs on one thread: for libraries whose results depend on the
 /// number of threads.
-template <class Body>
-void run_on_one_thread(Body&& body) {
-#ifdef PELAGE_HAS_TBB
-  tbb::task_arena(1).execute([&] { body(); });
-#else
-  body();
-#endif
-}
+void run_on_one_thread(const std::function<void()>& body);
 
 /// Limits the number of threads for as long as it lives (0: all cores).
 class ThreadLimit {
