@@ -1,8 +1,8 @@
-# Thin verbs over the CMake presets. On a bare Debian 12 run `sh tools/setup.sh` once: it installs make, too.
+# Thin verbs over tools/*.sh and the CMake presets, for those who have make.
 .DEFAULT_GOAL := build
 .PHONY: setup build demo test bench test-clients format format-check tidy asan fuzz clean
 
-JOBS ?= $(shell nproc)
+export JOBS ?= $(shell nproc)
 CMAKE_BUILD := cmake --build --parallel $(JOBS) --preset
 CXX_FILES = $(shell git ls-files '*.h' '*.cpp')
 
@@ -13,16 +13,14 @@ build: setup  ## the release: build/release/bin/pelage
 	@cmake --preset release -DPELAGE_TESTS=OFF -DPELAGE_BENCHMARKS=OFF
 	@$(CMAKE_BUILD) release
 
-demo: build  ## grow a coat on the built-in animal: out/demo.glb, out/demo.ply, out/demo.png
-	@mkdir -p out
-	build/release/bin/pelage grow --recipe demo -o out/demo.glb,out/demo.ply --picture out/demo.png
+demo:  ## grow a coat on the built-in animal: out/demo.glb, out/demo.ply, out/demo.png
+	@sh tools/demo.sh
 
-test: setup  ## build everything and run every test
-	@cmake --preset release -DPELAGE_TESTS=ON -DPELAGE_BENCHMARKS=OFF
-	@$(CMAKE_BUILD) release
-	@ctest --preset release --parallel $(JOBS)
+test:  ## build everything and run every test
+	@sh tools/test.sh
 
-bench: setup  ## measure; results in bench/results
+bench:  ## measure; results in bench/results
+	@sh tools/setup.sh libbenchmark-dev
 	@cmake --preset release -DPELAGE_TESTS=OFF -DPELAGE_BENCHMARKS=ON
 	@$(CMAKE_BUILD) release
 	@$(CMAKE_BUILD) release --target run_benchmarks

@@ -12,7 +12,7 @@
 #include "io/read_shape.h"
 #include "io/write_mesh.h"
 #include "look/dress.h"
-#include "look/picture.h"
+#include "render/picture.h"
 #include "run/run.h"
 #include "shape/generators.h"
 #include "support/discretisations.h"

@@ -5,17 +5,31 @@ find_package(CLI11 REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(embree 3 REQUIRED)
-find_package(PkgConfig REQUIRED)
 find_path(STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb REQUIRED)
 find_file(DEJAVU_SANS DejaVuSans.ttf PATHS /usr/share/fonts PATH_SUFFIXES truetype/dejavu dejavu TTF dejavu-sans-fonts REQUIRED)
 find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
 find_library(TINYGLTF_LIBRARY tinygltf REQUIRED)
 
-target_link_libraries(pelage_core PUBLIC TBB::tbb)
-target_compile_definitions(pelage_core PUBLIC $<BUILD_INTERFACE:PELAGE_HAS_TBB>)
+# --- the libraries, from left to right in the line of layers (docs/architecture.md) ----------------------
+# Threads: base/parallel.cpp is all that differs from the core alone.
+set_source_files_properties(src/base/parallel.cpp PROPERTIES COMPILE_DEFINITIONS PELAGE_HAS_TBB)
+target_link_libraries(pelage_core PRIVATE TBB::tbb)
 
-# --- the library: core + files + pictures + catalogue ---------------------------------------------------
-file(GLOB full_sources CONFIGURE_DEPENDS src/recipe/*.cpp src/io/*.cpp src/look/*.cpp src/verify/*.cpp src/catalog/*.cpp)
+pelage_library(pelage_io io recipe)  # files and texts
+target_include_directories(pelage_io SYSTEM PRIVATE ${STB_INCLUDE_DIR} ${TINYGLTF_INCLUDE_DIR})
+target_link_libraries(pelage_io PUBLIC pelage_core PRIVATE tomlplusplus::tomlplusplus
+  $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>  # a header of tinygltf
+  $<BUILD_INTERFACE:${TINYGLTF_LIBRARY}> $<INSTALL_INTERFACE:tinygltf>)
+
+pelage_library(pelage_look look)  # colours, plots, lettering
+target_include_directories(pelage_look SYSTEM PRIVATE ${STB_INCLUDE_DIR})
+target_link_libraries(pelage_look PUBLIC pelage_core)
+
+pelage_library(pelage catalog verify)  # from names to components; the interface of include/pelage/pelage.h
+target_link_libraries(pelage PUBLIC pelage_look pelage_io)
+
+pelage_library(pelage_render render)  # pictures of surfaces; for the command line, not installed
+target_link_libraries(pelage_render PUBLIC pelage_core PRIVATE embree)
 
 # models/*.toml and recipes/*.toml are compiled in, so that the program needs no data directory.
 file(GLOB data_files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
@@ -34,24 +48,21 @@ add_custom_command(OUTPUT ${font_cpp}
     -P ${PROJECT_SOURCE_DIR}/cmake/embed_font.cmake
   DEPENDS ${DEJAVU_SANS} ${PROJECT_SOURCE_DIR}/cmake/embed_font.cmake VERBATIM)
 
-add_library(pelage STATIC ${full_sources} ${embedded_cpp} ${font_cpp})
-add_library(pelage::pelage ALIAS pelage)
-target_include_directories(pelage PRIVATE src)
-target_include_directories(pelage SYSTEM PRIVATE ${STB_INCLUDE_DIR} ${TINYGLTF_INCLUDE_DIR})
-target_link_libraries(pelage
-  PUBLIC pelage_core
-  PRIVATE $<BUILD_INTERFACE:Eigen3::Eigen> $<BUILD_INTERFACE:pelage_flags>
-          $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> tomlplusplus::tomlplusplus embree
-          $<BUILD_INTERFACE:${TINYGLTF_LIBRARY}> $<INSTALL_INTERFACE:tinygltf>)
+target_sources(pelage PRIVATE ${embedded_cpp})
+target_sources(pelage_look PRIVATE ${font_cpp})
 
 # --- the command line -----------------------------------------------------------------------------------
 file(GLOB cli_sources CONFIGURE_DEPENDS apps/cli/*.cpp)
 if(cli_sources)
   add_executable(pelage_cli ${cli_sources})
   set_target_properties(pelage_cli PROPERTIES OUTPUT_NAME pelage)
+  # CLI11 and nlohmann-json cost a compiler ten seconds in every source that includes them; hence several sources at once.
+  if(NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
+    set_target_properties(pelage_cli PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 9)
+  endif()
   target_include_directories(pelage_cli PRIVATE src)
   target_compile_definitions(pelage_cli PRIVATE PELAGE_VERSION="${PROJECT_VERSION}")
-  target_link_libraries(pelage_cli PRIVATE pelage CLI11::CLI11 nlohmann_json::nlohmann_json Eigen3::Eigen pelage_flags)
+  target_link_libraries(pelage_cli PRIVATE pelage pelage_render CLI11::CLI11 nlohmann_json::nlohmann_json Eigen3::Eigen pelage_flags)
   install(TARGETS pelage_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 

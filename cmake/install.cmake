@@ -6,7 +6,7 @@ install(FILES ${public_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pelage)
 
 set(libraries pelage_core)
 if(TARGET pelage)
-  list(APPEND libraries pelage)
+  list(APPEND libraries pelage_io pelage_look pelage)
 endif()
 install(TARGETS ${libraries} EXPORT pelageTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT pelageTargets NAMESPACE pelage:: DESTINATION ${package_dir})

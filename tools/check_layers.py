@@ -1,19 +1,26 @@
 #!/usr/bin/env python3
-"""Checks that every layer includes only layers to its left (docs/architecture.md, "Layers").
+"""Checks that every layer includes only layers to its left, and others' headers only where they belong
+(docs/architecture.md, "Layers").
 
-Usage: check_layers.py [ROOT]    prints each upward include as FILE:LINE and exits 1 if there is one.
+Usage: check_layers.py [ROOT]    prints each wrong include as FILE:LINE and exits 1 if there is one.
 """
 import pathlib
 import re
 import sys
 
-ORDER = "base < linalg shape react recipe < discretise io < time fair direction look < run < catalog < verify < apps"
+ORDER = "base < linalg shape react recipe < discretise io < time fair direction look < run < catalog < verify render < apps"
 RANK = {layer: rank for rank, group in enumerate(ORDER.split("<")) for layer in group.split()}
 
 # The public headers belong to the layer that implements them.
 PUBLIC = {"error": "base", "point": "base", "progress": "base", "triangle_mesh": "shape", "image": "shape",
           "recipe": "recipe", "run": "run", "pelage": "catalog"}
-INCLUDE = re.compile(r'\s*#\s*include\s*"([^"]+)"')
+INCLUDE = re.compile(r'\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
+
+# Where headers belong that are neither of the C++ standard library nor of Eigen: those whose names begin like this, in
+# files whose paths begin like that.
+OUTSIDE = {"tbb/": ["src/base/parallel.cpp"], "toml++/": ["src/recipe/document.cpp"], "tiny_gltf.h": ["src/io/"],
+           "stb_image": ["src/io/"], "stb_truetype.h": ["src/look/text.cpp"], "embree3/": ["src/render/"],
+           "unistd.h": ["src/io/", "apps/cli/"], "sys/": ["apps/cli/"], "CLI/": ["apps/cli/"], "nlohmann/": ["apps/cli/"]}
 
 
 def layer_of(path):
@@ -25,18 +32,29 @@ def layer_of(path):
     return layer if name else None
 
 
+def belongs(header, file):
+    """Headers of the C++ standard library have neither a dot nor a slash in their names."""
+    if header.startswith("Eigen/"):
+        return not file.startswith("include/")
+    return not re.search(r"[./]", header) or any(
+        file.startswith(place) for name, places in OUTSIDE.items() if header.startswith(name) for place in places)
+
+
 def violations(root):
     for base, pattern in ("src", "*/*"), ("include", "pelage/*"), (".", "apps/**/*"):
         for file in sorted(f for f in (root / base).glob(pattern) if f.suffix in (".h", ".cpp")):
             user = layer_of(file.relative_to(root / base).as_posix())
             for number, line in enumerate(file.read_text().splitlines(), 1):
                 match = INCLUDE.match(line)
-                used = match and layer_of(match[1])
+                used = match and match[1] and layer_of(match[1])
+                place = file.relative_to(root).as_posix()
                 if used and used != user and RANK[used] >= RANK[user]:
-                    yield f"{file.relative_to(root)}:{number}: {user} must not include {match[1]} (layer {used})"
+                    yield f"{place}:{number}: {user} must not include {match[1]} (layer {used})"
+                if match and match[2] and not belongs(match[2], place):
+                    yield f"{place}:{number}: <{match[2]}> does not belong here (see OUTSIDE in tools/check_layers.py)"
 
 
 if __name__ == "__main__":
     faults = list(violations(pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")))
-    print("\n".join(faults) or "layers: every include points to the left")
+    print("\n".join(faults) or "layers: every include is where it belongs")
     sys.exit(1 if faults else 0)

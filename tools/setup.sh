@@ -4,14 +4,14 @@
 set -eu
 
 packages="
-  g++ make cmake ninja-build git pkg-config python3
+  g++ cmake ninja-build python3
   libeigen3-dev libtbb-dev libembree-dev libtinygltf-dev libstb-dev fonts-dejavu-core
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev
-  libgtest-dev libbenchmark-dev libosd-dev $*"
+  libgtest-dev libosd-dev $*"
 
 missing=""
 for package in $packages; do
-  # `make setup` runs on any system where the packages were provided in another way than through dpkg.
+  # Where there is no dpkg at all, every package counts as missing.
   dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing="$missing $package"
 done
 [ -n "$missing" ] || exit 0
@@ -29,6 +29,8 @@ fi
 echo "setup: installing$missing"
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM
 # shellcheck disable=SC2086  # the words of the lists are separate arguments
 if ! { $as_root apt-get update -q && $as_root env DEBIAN_FRONTEND=noninteractive \
        apt-get install -y -q --no-install-recommends $missing; } >"$log" 2>&1 </dev/null; then

@@ -205,8 +205,6 @@ void print_analysis(const Analysis& a, const std::string& title) {
 
 // --- for programs -----------------------------------------------------------------------------------------
 
-Json value(const std::optional<double>& x) { return x ? json_number(*x) : Json(nullptr); }
-
 Json by_species(const Analysis& a, const std::vector<double>& values) {
   Json object = Json::object();
   for (std::size_t i = 0; i < a.species.size(); ++i) object[a.species[i]] = json_number(values[i]);
@@ -225,7 +223,7 @@ Json state_json(const Analysis& a, std::size_t i) {
           {"jacobian_by_rows", jacobian},
           {"diffusion", by_species(a, s.diffusion)},
           {"regime", describe(regime_of(s))},
-          {"wavelength", value(s.wavelength)},
+          {"wavelength", json_number(s.wavelength)},
           {"growth", json_number(s.growth)},
           {"oscillatory", s.oscillatory},
           {"band", s.band_min ? Json{json_number(*s.band_min), json_number(*s.band_max)} : Json(nullptr)}};
@@ -247,7 +245,7 @@ Json to_json(const Analysis& a, const std::string& name) {
           {"steady_states", states},
           {"conditions", conditions},
           {"thresholds", thresholds},
-          {"wavelength", value(a.wavelength)},
+          {"wavelength", json_number(a.wavelength)},
           {"largest_steps", steps}};
 }
 

@@ -16,7 +16,7 @@ void line(const char* label, const std::string& text) { std::printf("  %-14s%s\n
 
 std::string place(const Point& p) { return "(" + number(p[0]) + ", " + number(p[1]) + ", " + number(p[2]) + ")"; }
 
-std::string range(const Range& r) { return number(r.min) + " to " + number(r.max) + ", mean " + number(r.mean); }
+std::string range(const Spread& r) { return number(r.min) + " to " + number(r.max) + ", mean " + number(r.mean); }
 
 std::string boundary(const MeshReport& r) {
   if (r.closed) return "none: the shape is closed";
@@ -48,7 +48,7 @@ void print_report(const MeshReport& r) {
   for (const Finding& f : r.findings) line(f.repaired ? "repaired" : "noted", f.text);
 }
 
-Json to_json(const Range& r) {
+Json to_json(const Spread& r) {
   return {{"min", json_number(r.min)}, {"mean", json_number(r.mean)}, {"max", json_number(r.max)}};
 }
 

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "shape/finding.h"
 
@@ -31,8 +32,9 @@ Command add_verify(CLI::App& parent);
 /// Prints to stdout, indented; text that is not UTF-8 gets replacement characters.
 void print_json(const Json& json);
 
-/// Numbers that JSON does not know (infinite ones) become null.
+/// Numbers that JSON does not know (infinite ones) and missing ones become null.
 Json json_number(double value);
+Json json_number(const std::optional<double>& value);
 
 Json json_findings(const std::vector<Finding>& findings);
 

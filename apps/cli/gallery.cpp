@@ -17,8 +17,8 @@
 #include "io/png_writer.h"
 #include "look/caption.h"
 #include "look/dress.h"
-#include "look/picture.h"
 #include "progress_bar.h"
+#include "render/picture.h"
 #include "run/run.h"
 #include "text.h"
 #include "usage.h"
@@ -27,7 +27,6 @@ namespace pelage {
 
 namespace {
 
-constexpr int most_threads = 1024;
 constexpr int smallest_picture = 64, largest_picture = 4096;
 constexpr std::int64_t steps_per_slice = 20;
 /// Share of a picture's time that its run takes, the rest being drawing.

@@ -8,6 +8,7 @@
 #include "catalog/models.h"
 #include "catalog/plan.h"
 #include "catalog/recipes.h"
+#include "catalog/size.h"
 #include "fair/fair.h"
 #include "io/atomic_file.h"
 #include "io/png_writer.h"
@@ -25,7 +26,6 @@ namespace pelage {
 namespace {
 
 constexpr std::int64_t most_steps = 1'000'000'000'000;
-constexpr int most_threads = 1024;
 constexpr int largest_picture = 32768;
 
 std::string choices(const std::vector<std::string>& names) { return ": " + join_names(names); }

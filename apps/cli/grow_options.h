@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "command.h"
-#include "look/picture.h"
 #include "pelage/recipe.h"
+#include "render/picture.h"
 
 namespace pelage {
 

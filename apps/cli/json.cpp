@@ -9,6 +9,8 @@ void print_json(const Json& json) { std::puts(json.dump(2, ' ', false, Json::err
 
 Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+Json json_number(const std::optional<double>& value) { return value ? json_number(*value) : Json(nullptr); }
+
 Json json_findings(const std::vector<Finding>& findings) {
   Json list = Json::array();
   for (const Finding& f : findings)

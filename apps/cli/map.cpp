@@ -27,7 +27,6 @@ namespace {
 
 /// More cells would be smaller than a spot of their pattern.
 constexpr int most_cells_across = 64;
-constexpr int most_threads = 1024;
 
 struct MapOptions {
   std::string model, x, y, cells = "6x6", output = "map.png";

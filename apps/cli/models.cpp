@@ -165,8 +165,6 @@ void print_entry(const Entry& e) {
 
 Json formula(const std::optional<Formula>& f) { return f ? Json(f->text) : Json(nullptr); }
 
-Json value(const std::optional<double>& x) { return x ? json_number(*x) : Json(nullptr); }
-
 Json anisotropy(const std::optional<AnisotropySource>& a) {
   return a ? Json{{"theta", a->theta.text}, {"a1", a->a1.text}, {"a2", a->a2.text}} : Json(nullptr);
 }
@@ -217,16 +215,16 @@ Json to_json(const Entry& e) {
           {"species", species},
           {"definitions", definitions},
           {"parameters", parameters},
-          {"wavelength", value(e.wavelength)},
+          {"wavelength", json_number(e.wavelength)},
           {"wavelength_formula", source.wavelength_law ? Json(source.wavelength_law->text) : Json(nullptr)},
-          {"critical_wavelength", value(e.stability.wavelength)},
+          {"critical_wavelength", json_number(e.stability.wavelength)},
           {"growth", json_number(e.stability.growth)},
           {"oscillatory", e.stability.oscillatory},
           {"steady_state", steady_state_json(e)},
           {"suggested",
-           {{"step", value(source.suggestions.step)},
-            {"end", value(source.suggestions.end)},
-            {"tolerance", value(source.suggestions.tolerance)},
+           {{"step", json_number(source.suggestions.step)},
+            {"end", json_number(source.suggestions.end)},
+            {"tolerance", json_number(source.suggestions.tolerance)},
             {"resolution", source.suggestions.resolution_or_default()}}}};
 }
 

@@ -12,7 +12,7 @@ namespace pelage {
 namespace {
 
 constexpr int gap = 8;  // pixels between panels
-constexpr std::int64_t steps_per_slice = 5;
+constexpr std::int64_t steps_per_report = 5;
 
 /// Flat triangles in grey: the smooth surface would hide half of the noise.
 TriangleMesh bare(const TriangleMesh& mesh) { return {mesh.points, mesh.triangles, {}}; }
@@ -22,7 +22,7 @@ TriangleMesh coat_at_rest(Recipe recipe, const TriangleMesh& noisy, const Progre
   Run run(make_program(recipe, noisy), progress);
   while (!run.done()) {
     if (progress && !progress("growing on the noisy shape", run.fraction())) throw Error(Fault::cancelled, "cancelled");
-    run.advance(steps_per_slice);
+    run.advance(steps_per_report);
   }
   if (run.summary().status == RunStatus::failed) throw Error(Fault::numerics, run.summary().message);
   return dress(run.fields(), recipe.look);

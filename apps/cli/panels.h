@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdint>
 
-#include "look/picture.h"
 #include "pelage/recipe.h"
 #include "pelage/triangle_mesh.h"
+#include "render/picture.h"
 
 namespace pelage {
 

@@ -11,6 +11,9 @@ namespace pelage {
 /// missing and unusable values; CLI::Success when help or the version is asked for.
 const Command& parse_arguments(CLI::App& app, const std::vector<Command>& commands, int argc, char** argv);
 
+/// Of --threads.
+inline constexpr int most_threads = 1024;
+
 /// Checks of an option's value, with messages for people.
 CLI::Validator whole_number(std::int64_t least, std::int64_t most);
 CLI::Validator positive_number();

@@ -1,21 +1,18 @@
-// Uses an installed pelage from outside its source tree.
-
-#include <pelage/error.h>
-#include <pelage/triangle_mesh.h>
+// Uses an installed pelage from outside its source tree: grows a coat for a few steps and saves it.
+#include <pelage/pelage.h>
 
 #include <iostream>
 
 int main() {
   try {
-    pelage::TriangleMesh mesh;
-    mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    mesh.triangles = {{0, 1, 2}};
-    mesh.set({"height", 1, pelage::Domain::vertex, {0, 0, 1}});
-    const pelage::Attribute* height = mesh.find("height");
-    if (height == nullptr || height->values.size() != mesh.points.size())
-      throw pelage::Error(pelage::Fault::input, "the attribute \"height\" was lost", {"triangle", 1});
-    std::cout << mesh.triangles.size() << " triangle, height of its last corner " << height->values.back() << "\n";
-    return 0;
+    pelage::Recipe recipe = pelage::recipe("demo");
+    recipe.stages[0].size = pelage::Given<pelage::Length>{{0.3, false}, {}};  // of the bounding box's diagonal
+    pelage::Growth growth(pelage::load_shape("builtin:sphere?n=642"), recipe);
+    growth.advance(5);
+    const pelage::TriangleMesh coat = growth.dress();
+    pelage::save(coat, "coat.glb");
+    std::cout << coat.triangles.size() << " triangles with " << (coat.find("color") ? "a coat" : "no coat") << "\n";
+    return coat.find("color") ? 0 : 1;
   } catch (const pelage::Error& error) {
     std::cerr << "outside: error: " << error.what() << "\n";
     return static_cast<int>(error.fault());

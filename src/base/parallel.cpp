@@ -1,26 +1,71 @@
 #include "base/parallel.h"
 
 #ifdef PELAGE_HAS_TBB
+#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
-#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <limits>
+#include <mutex>
 #endif
 
 namespace pelage {
 
 #ifdef PELAGE_HAS_TBB
+namespace {
+
+/// The exception of the lowest chunk that fails. It is kept from TBB, which would report any one and cut loops inside
+/// the other chunks short without a word to them.
+class FirstFailure {
+ public:
+  void run(std::size_t chunk, const std::function<void(std::size_t)>& body) {
+    if (chunk > chunk_) return;
+    try {
+      body(chunk);
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (chunk > chunk_) return;
+      chunk_ = chunk;
+      exception_ = std::current_exception();
+    }
+  }
+  void rethrow() const {
+    if (exception_) std::rethrow_exception(exception_);
+  }
+
+ private:
+  std::atomic<std::size_t> chunk_ = std::numeric_limits<std::size_t>::max();
+  std::mutex mutex_;
+  std::exception_ptr exception_;
+};
+
+}  // namespace
+
+void on_all_threads(std::size_t count, const std::function<void(std::size_t)>& body) {
+  FirstFailure failure;
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t chunk) { failure.run(chunk, body); });
+  failure.rethrow();
+}
 int concurrency() {
   const std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   return std::max(1, std::min(tbb::info::default_concurrency(), static_cast<int>(allowed)));
 }
+void run_on_one_thread(const std::function<void()>& body) { tbb::task_arena(1).execute(body); }
 ThreadLimit::ThreadLimit(int threads) {
   if (threads > 0)
     control_ = new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
 }
 ThreadLimit::~ThreadLimit() { delete static_cast<tbb::global_control*>(control_); }
 #else
+void on_all_threads(std::size_t count, const std::function<void(std::size_t)>& body) {
+  for (std::size_t chunk = 0; chunk < count; ++chunk) body(chunk);
+}
 int concurrency() { return 1; }
+void run_on_one_thread(const std::function<void()>& body) { body(); }
 ThreadLimit::ThreadLimit(int) {}
 ThreadLimit::~ThreadLimit() = default;
 #endif

@@ -3,19 +3,10 @@
 // chunks of fixed size, and sums are formed per chunk and then added in the order of the chunks.
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
-#include <exception>
-#include <limits>
-#include <mutex>
+#include <functional>
 #include <utility>
 #include <vector>
-
-#ifdef PELAGE_HAS_TBB
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-#endif
 
 namespace pelage {
 
@@ -25,45 +16,18 @@ inline constexpr std::size_t default_chunk = 2048;
 
 inline std::size_t chunk_count(std::size_t n, std::size_t chunk = default_chunk) { return (n + chunk - 1) / chunk; }
 
-/// The exception of the lowest chunk that fails. It is kept from TBB, which would report any one and cut loops inside
-/// the other chunks short without a word to them.
-class FirstFailure {
- public:
-  template <class Body>
-  void run(std::size_t chunk, Body& body) {
-    if (chunk > chunk_) return;
-    try {
-      body(chunk);
-    } catch (...) {
-      const std::lock_guard lock(mutex_);
-      if (chunk > chunk_) return;
-      chunk_ = chunk;
-      exception_ = std::current_exception();
-    }
-  }
-  void rethrow() const {
-    if (exception_) std::rethrow_exception(exception_);
-  }
-
- private:
-  std::atomic<std::size_t> chunk_ = std::numeric_limits<std::size_t>::max();
-  std::mutex mutex_;
-  std::exception_ptr exception_;
-};
-
 /// Calls body(chunk_index) for every chunk index below `count`, in any order, from several threads. When chunks throw,
-/// the exception of the lowest one comes out, for any number of threads; chunks that have begun are finished first.
+/// the exception of the lowest one comes out, for any number of threads; chunks that have begun are finished first. All
+/// that knows of threads is in parallel.cpp.
+void on_all_threads(std::size_t count, const std::function<void(std::size_t)>& body);
+
+/// The same; a single chunk is spared the call through a pointer.
 template <class Body>
 void parallel_chunks(std::size_t count, Body&& body) {
-#ifdef PELAGE_HAS_TBB
-  if (count > 1) {
-    FirstFailure failure;
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t c) { failure.run(c, body); });
-    failure.rethrow();
-    return;
-  }
-#endif
-  for (std::size_t c = 0; c < count; ++c) body(c);
+  if (count > 1)
+    on_all_threads(count, std::ref(body));  // by reference: no copy, no allocation
+  else if (count == 1)
+    body(std::size_t{0});
 }
 
 /// Calls body(begin, end) for consecutive sub-ranges that cover [0, n). Iterations must be independent.
@@ -88,14 +52,7 @@ int concurrency();
 
 /// Calls body() so that all parallel work inside runs on one thread: for libraries whose results depend on the
 /// number of threads.
-template <class Body>
-void run_on_one_thread(Body&& body) {
-#ifdef PELAGE_HAS_TBB
-  tbb::task_arena(1).execute([&] { body(); });
-#else
-  body();
-#endif
-}
+void run_on_one_thread(const std::function<void()>& body);
 
 /// Limits the number of threads for as long as it lives (0: all cores).
 class ThreadLimit {

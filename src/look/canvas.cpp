@@ -30,7 +30,7 @@ struct PixelRange {
   int left, top, right, bottom;  ///< right and bottom exclusive
 };
 
-PixelRange pixels_around(const Box& box, double margin, int width, int height) {
+PixelRange pixels_around(const Rectangle& box, double margin, int width, int height) {
   const auto clamped = [](double x, int most) {
     return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(most)));
   };
@@ -38,8 +38,8 @@ PixelRange pixels_around(const Box& box, double margin, int width, int height) {
           clamped(std::ceil(box.right + margin), width), clamped(std::ceil(box.bottom + margin), height)};
 }
 
-Box box_around(const std::vector<Spot>& spots) {
-  Box box{spots.front().x, spots.front().y, spots.front().x, spots.front().y};
+Rectangle box_around(const std::vector<Spot>& spots) {
+  Rectangle box{spots.front().x, spots.front().y, spots.front().x, spots.front().y};
   for (const Spot& s : spots)
     box = {std::min(box.left, s.x), std::min(box.top, s.y), std::max(box.right, s.x), std::max(box.bottom, s.y)};
   return box;
@@ -87,7 +87,7 @@ void Canvas::blend(int x, int y, const Color& color, double coverage) {
   for (std::size_t k = 0; k < 3; ++k) pixel[k] += static_cast<float>(coverage * (color[k] - pixel[k]));
 }
 
-void Canvas::fill(const Box& box, const Color& color, double opacity) {
+void Canvas::fill(const Rectangle& box, const Color& color, double opacity) {
   const Color value = encoded(color);
   const PixelRange range = pixels_around(box, 0, width_, height_);
   for (int y = range.top; y < range.bottom; ++y)
@@ -121,7 +121,7 @@ void Canvas::dashed_line(const std::vector<Spot>& spots, double width, const Col
     line(cut_out(spots, from, std::min(length, from + dash)), width, color);
 }
 
-void Canvas::frame(const Box& b, double width, const Color& color) {
+void Canvas::frame(const Rectangle& b, double width, const Color& color) {
   line({{b.left, b.top}, {b.right, b.top}, {b.right, b.bottom}, {b.left, b.bottom}, {b.left, b.top}}, width, color);
 }
 

@@ -15,7 +15,7 @@ struct Spot {
   double x = 0, y = 0;
 };
 
-struct Box {
+struct Rectangle {
   double left = 0, top = 0, right = 0, bottom = 0;
   double width() const { return right - left; }
   double height() const { return bottom - top; }
@@ -34,11 +34,11 @@ class Canvas {
  public:
   Canvas(int width, int height, const Color& background);
 
-  void fill(const Box& box, const Color& color, double opacity = 1);
+  void fill(const Rectangle& box, const Color& color, double opacity = 1);
   /// A line through the spots; where it meets itself it is not darker.
   void line(const std::vector<Spot>& spots, double width, const Color& color);
   void dashed_line(const std::vector<Spot>& spots, double width, const Color& color, double dash, double gap);
-  void frame(const Box& box, double width, const Color& color);
+  void frame(const Rectangle& box, double width, const Color& color);
   void disc(const Spot& centre, double radius, const Color& color);
   void text(const std::string& text, const Spot& spot, const TextStyle& style);
   /// The picture with its top left corner at pixel (x, y); what lies outside is cut off.

@@ -27,7 +27,7 @@ double largest_wave_number(const Stability& s) {
 }
 
 /// Heights of the curves, with room above; deep decay at large wave numbers is cut off so that the top stays readable.
-Range heights(const std::vector<std::array<double, 2>>& growth, double frequency) {
+Interval heights(const std::vector<std::array<double, 2>>& growth, double frequency) {
   double low = 0, high = frequency;
   for (const auto& [k, sigma] : growth) {
     low = std::min(low, sigma);

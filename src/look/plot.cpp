@@ -13,12 +13,12 @@ namespace {
 // Sizes in pixels, for a picture of 1600 x 1000 that is printed about 16 cm wide.
 constexpr double title_size = 46, text_size = 34, small_size = 30;
 constexpr double thin = 1.5, thick = 4.5;
-constexpr Box margins = {170, 150, 50, 130};
+constexpr Rectangle margins = {170, 150, 50, 130};
 
 const Color ink = {0.012, 0.012, 0.014}, pale_ink = {0.12, 0.12, 0.13}, grid = {0.8, 0.8, 0.8}, paper = {1, 1, 1};
 
 /// Where the segment a-b leaves and enters the box (Liang, Barsky 1984): the share of it that lies inside.
-std::array<double, 2> share_inside(const Spot& a, const Spot& b, const Box& box) {
+std::array<double, 2> share_inside(const Spot& a, const Spot& b, const Rectangle& box) {
   double from = 0, to = 1;
   const auto cut = [&](double direction, double room) {  // inside where direction * t <= room
     if (direction > 0) to = std::min(to, room / direction);
@@ -33,7 +33,7 @@ std::array<double, 2> share_inside(const Spot& a, const Spot& b, const Box& box)
 }
 
 void draw_axes(Canvas& canvas, const Plot& plot, const PlotFrame& frame) {
-  const Box& box = frame.box();
+  const Rectangle& box = frame.box();
   for (const Tick& t : round_ticks(plot.x.low, plot.x.high, 9)) {
     const double x = frame.place(t.value, 0).x;
     canvas.line({{x, box.top}, {x, box.bottom}}, 1, grid);
@@ -49,7 +49,7 @@ void draw_axes(Canvas& canvas, const Plot& plot, const PlotFrame& frame) {
 }
 
 void draw_frame(Canvas& canvas, const Plot& plot, const PlotFrame& frame) {
-  const Box& box = frame.box();
+  const Rectangle& box = frame.box();
   if (plot.y.low < 0 && plot.y.high > 0) {
     const double zero = frame.place(0, 0).y;
     canvas.line({{box.left, zero}, {box.right, zero}}, 2, ink);
@@ -71,7 +71,7 @@ void draw_curve(Canvas& canvas, const PlotCurve& curve, const std::vector<Spot>&
 
 /// The words stand at the foot of the line, where curves are seldom: right of it, or left where the frame ends.
 void draw_mark(Canvas& canvas, const PlotMark& mark, const PlotFrame& frame) {
-  const Box& box = frame.box();
+  const Rectangle& box = frame.box();
   const Spot at = frame.place(mark.x, mark.y);
   canvas.dashed_line({{at.x, at.y}, {at.x, box.bottom}}, 2, mark.color, 6, 8);
   canvas.disc(at, 11, paper);
@@ -88,7 +88,7 @@ void draw_mark(Canvas& canvas, const PlotMark& mark, const PlotFrame& frame) {
 }
 
 /// A row of samples with their names above the right end of the axes.
-void draw_legend(Canvas& canvas, const Plot& plot, const Box& box) {
+void draw_legend(Canvas& canvas, const Plot& plot, const Rectangle& box) {
   constexpr double sample = 60, gap = 34;
   double x = box.right;
   const double y = box.top - 14;

@@ -9,7 +9,7 @@
 
 namespace pelage {
 
-struct Range {
+struct Interval {
   double low = 0, high = 1;
 };
 
@@ -22,7 +22,7 @@ struct PlotCurve {
 
 /// An interval of x, shaded over the whole height.
 struct PlotBand {
-  Range x;
+  Interval x;
   Color color = {0, 0, 0};
   std::string label;  ///< for the legend
 };
@@ -37,7 +37,7 @@ struct PlotMark {
 struct Plot {
   std::string title, subtitle;
   std::string x_label, y_label;
-  Range x, y;
+  Interval x, y;
   std::vector<PlotCurve> curves;
   std::vector<PlotBand> bands;
   std::vector<PlotMark> marks;
@@ -48,12 +48,12 @@ struct Plot {
 class PlotFrame {
  public:
   explicit PlotFrame(const Plot& plot);
-  const Box& box() const { return box_; }  ///< of the axes
+  const Rectangle& box() const { return box_; }  ///< of the axes
   Spot place(double x, double y) const;
 
  private:
-  Box box_;
-  Range x_, y_;
+  Rectangle box_;
+  Interval x_, y_;
 };
 
 /// The parts of a curve that lie within the axes, cut off exactly at their edges; in pixels.

@@ -2,7 +2,7 @@
 // A surface with its fields as a mesh of samples: as fine as the colours need. What takes time is done here once; the
 // samples can then be painted again and again.
 
-#include "look/coat_fields.h"
+#include "discretise/coat_fields.h"
 #include "look/palette.h"
 
 namespace pelage {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "look/coat_fields.h"
+#include "discretise/coat_fields.h"
 #include "run/stage_system.h"
 #include "run/world.h"
 #include "time/stepper.h"

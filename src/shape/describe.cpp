@@ -15,7 +15,7 @@ namespace pelage {
 
 namespace {
 
-/// Gathers a Range.
+/// Gathers a Spread.
 class Gather {
  public:
   void add(double x) {
@@ -24,7 +24,7 @@ class Gather {
     sum_ += x;
     ++count_;
   }
-  Range range() const { return count_ ? Range{min_, sum_ / static_cast<double>(count_), max_} : Range{}; }
+  Spread range() const { return count_ ? Spread{min_, sum_ / static_cast<double>(count_), max_} : Spread{}; }
 
  private:
   double min_ = std::numeric_limits<double>::infinity(), max_ = -min_, sum_ = 0;

@@ -12,7 +12,7 @@
 namespace pelage {
 
 /// Smallest, mean and largest of a quantity.
-struct Range {
+struct Spread {
   double min = 0, mean = 0, max = 0;
 };
 
@@ -24,8 +24,8 @@ struct MeshReport {
   long euler_characteristic = 0;        ///< vertices - edges + faces
   long genus = 0;                       ///< handles, summed over the components
   std::map<int, std::size_t> valences;  ///< number of edges at a vertex -> how many such vertices
-  Range edge_length;                    ///< world units
-  Range angle;                          ///< corners of the triangles, degrees
+  Spread edge_length;                   ///< world units
+  Spread angle;                         ///< corners of the triangles, degrees
   double area = 0;                      ///< world units squared
   double volume = 0;                    ///< enclosed by the closed components, world units cubed; 0 if there is none
   bool closed = false;                  ///< no boundary at all

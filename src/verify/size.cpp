@@ -14,7 +14,7 @@ constexpr double size = 0.6;  // about 40 spots on the unit sphere
 
 /// Measured wavelength of the finished pattern over the size that was asked for. Of the faster diffusing species: its
 /// pattern has hardly any harmonics, which would shorten the measured length.
-double relative_wavelength(Triangulation triangulation) {
+double relative_wavelength(SphereTriangulation triangulation) {
   Recipe recipe;
   recipe.stages[0].model.value = "turing";
   recipe.stages[0].size = Given<Length>{{size, false}, {}};
@@ -31,8 +31,8 @@ std::vector<Figure> verify_size() {
   std::vector<Figure> figures;
   double shortest = 1e300, longest = 0;
   for (auto [name, triangulation] :
-       {std::pair{"uniform", Triangulation::uniform}, std::pair{"graded 1:10", Triangulation::graded},
-        std::pair{"with slivers", Triangulation::slivers}}) {
+       {std::pair{"uniform", SphereTriangulation::uniform}, std::pair{"graded 1:10", SphereTriangulation::graded},
+        std::pair{"with slivers", SphereTriangulation::slivers}}) {
     const double ratio = relative_wavelength(triangulation);
     shortest = std::min(shortest, ratio);
     longest = std::max(longest, ratio);

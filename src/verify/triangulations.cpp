@@ -49,10 +49,10 @@ void make_slivers(TriangleMesh& mesh) {
 
 }  // namespace
 
-TriangleMesh unit_sphere(Triangulation triangulation, int n) {
+TriangleMesh unit_sphere(SphereTriangulation triangulation, int n) {
   TriangleMesh mesh = builtin_shape("builtin:sphere?n=" + std::to_string(n));
-  if (triangulation == Triangulation::graded) grade(mesh, 10);
-  if (triangulation == Triangulation::slivers) make_slivers(mesh);
+  if (triangulation == SphereTriangulation::graded) grade(mesh, 10);
+  if (triangulation == SphereTriangulation::slivers) make_slivers(mesh);
   return mesh;
 }
 

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "catalog/models.h"
-#include "react/stability.h"
+#include "react/wavelength.h"
 #include "run/run.h"
 
 namespace pelage {

@@ -164,7 +164,7 @@ TEST(Run, GivesUpWhereTheStepsAreFarTooShortForTheTime) {
   program.stages[0].suggested_step = 100;  // where steps of a half are possible
   program.stages[0].until = 2000;
   program.stages[0].stationary = 0;
-  Run run(program);
+  pelage::Run run(std::move(program));
   run.advance(1'000'000);
   EXPECT_EQ(run.summary().status, RunStatus::failed);
   EXPECT_EQ(run.summary().steps, 3001);

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Every `pelage ...` line of the README does what it says: runs, and writes the files that it names. Usage: SOURCE BINARY
+# Every `pelage ...` line of the README does what it says: runs, and writes the files that it names; in few steps and with
+# small pictures, which is for time alone. Usage: SOURCE BINARY
 set -uo pipefail
 source=$1
 pelage=$2/bin/pelage
@@ -12,9 +13,11 @@ failures=0
 "$pelage" grow builtin:animal?n=600 --steps 0 --detail 0 -o cow.obj,scan.ply >log 2>&1 || { cat log; exit 1; }
 
 run_line() {
-  local -a words
+  local -a words quick=()
   read -ra words <<<"$1"
-  "$pelage" "${words[@]:1}" >log 2>&1 </dev/null || { echo "FAILED: $1"; tail -3 log; failures=$((failures + 1)); return; }
+  [[ $1 == 'pelage grow'* ]] && quick+=(--steps 5 --detail 0)
+  [[ $1 == *' --picture '* ]] && quick+=(--picture-size 64)
+  "$pelage" "${words[@]:1}" "${quick[@]}" >log 2>&1 </dev/null || { echo "FAILED: $1"; tail -3 log; failures=$((failures + 1)); return; }
   local file
   for file in $(tr ', ' '\n' <<<"$1" | grep -E '^[a-z]+\.(glb|ply|obj|png|html)$'); do
     [ -s "$file" ] || { echo "FAILED: $1: no $file"; failures=$((failures + 1)); }

@@ -15,8 +15,8 @@ Point to_sphere(const Point& p) {
 }
 
 TEST(Remesh, MakesAnyTriangulationUniform) {
-  using enum Triangulation;
-  for (Triangulation kind : {uniform, graded, slivers})
+  using enum SphereTriangulation;
+  for (SphereTriangulation kind : {uniform, graded, slivers})
     for (int n : {300, 3000}) {
       SCOPED_TRACE(n);
       const TriangleMesh mesh = remesh(unit_sphere(kind, 2000), static_cast<std::size_t>(n), to_sphere);
@@ -48,12 +48,12 @@ TEST(Remesh, KeepsTheHoleOfARingThatIsThinnerThanItsEdges) {
 }
 
 TEST(Triangulations, AreWhatTheirNamesSay) {
-  const auto uniform = testing::mesh_facts(unit_sphere(Triangulation::uniform, 4000));
+  const auto uniform = testing::mesh_facts(unit_sphere(SphereTriangulation::uniform, 4000));
   EXPECT_LT(uniform.longest_edge / uniform.shortest_edge, 1.5);
-  const auto graded = testing::mesh_facts(unit_sphere(Triangulation::graded, 4000));
+  const auto graded = testing::mesh_facts(unit_sphere(SphereTriangulation::graded, 4000));
   EXPECT_NEAR(graded.longest_edge / graded.shortest_edge, 10, 3);
   EXPECT_GT(graded.smallest_angle, 40);
-  const auto slivers = testing::mesh_facts(unit_sphere(Triangulation::slivers, 4000));
+  const auto slivers = testing::mesh_facts(unit_sphere(SphereTriangulation::slivers, 4000));
   EXPECT_LT(slivers.smallest_angle, 6);
   for (const auto& facts : {uniform, graded, slivers}) {
     EXPECT_EQ(facts.euler, 2);

@@ -1,10 +1,10 @@
-#include "look/studio.h"
+#include "render/studio.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "look/sampler.h"
+#include "render/sampler.h"
 
 namespace pelage {
 namespace {

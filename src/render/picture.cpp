@@ -1,4 +1,4 @@
-#include "look/picture.h"
+#include "render/picture.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "base/parallel.h"
-#include "look/camera.h"
-#include "look/ray_scene.h"
-#include "look/sampler.h"
-#include "look/studio.h"
 #include "pelage/error.h"
+#include "render/camera.h"
+#include "render/ray_scene.h"
+#include "render/sampler.h"
+#include "render/studio.h"
 
 namespace pelage {
 

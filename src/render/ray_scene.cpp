@@ -1,4 +1,4 @@
-#include "look/ray_scene.h"
+#include "render/ray_scene.h"
 
 #include <embree3/rtcore.h>
 

@@ -1,4 +1,4 @@
-#include "look/camera.h"
+#include "render/camera.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "look/picture.h"
+#include "render/picture.h"
 
 #include <gtest/gtest.h>
 

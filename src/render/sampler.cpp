@@ -1,4 +1,4 @@
-#include "look/sampler.h"
+#include "render/sampler.h"
 
 namespace pelage {
 

@@ -1,4 +1,4 @@
-#include "look/studio.h"
+#include "render/studio.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

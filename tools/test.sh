@@ -1,0 +1,10 @@
+#!/bin/sh
+# From a bare Debian 12 to the closing lines and the exit code of ctest: installs what is missing, builds everything and
+# runs every test. JOBS=N in the environment: so many compilers, and then tests, at a time (all cores).
+set -eu
+CDPATH="" cd -- "$(dirname -- "$0")/.."
+jobs=${JOBS:-$(nproc)}
+sh tools/setup.sh
+cmake --preset release -DPELAGE_TESTS=ON -DPELAGE_BENCHMARKS=OFF
+cmake --build --preset release --parallel "$jobs"
+exec ctest --preset release --parallel "$jobs"
