@@ -163,7 +163,7 @@ TEST(Run, GivesUpWhereTheStepsAreFarTooShortForTheTime) {
   program.suggested_step = 100;  // where steps of a half are possible
   program.until = 2000;
   program.stationary = 0;
-  Run run(program);
+  pelage::Run run(program);
   run.advance(1'000'000);
   EXPECT_EQ(run.summary().status, RunStatus::failed);
   EXPECT_EQ(run.summary().steps, 3001);
