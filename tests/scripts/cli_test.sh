@@ -85,7 +85,7 @@ expect 2 '--up: unknown axis "q"' grow $sphere -o a.ply --up q
 expect 2 "'4x' is not a length" grow $sphere -o a.ply --size 4x
 expect 2 "'4x' is not a length" grow $sphere -o a.ply --unit 4x
 expect 2 '--size and --unit: give one of them' grow $sphere -o a.ply --size 0.3 --unit 0.1
-expect 2 'model "schnakenberg" is measured at the values of its file; with d = 5 it is unknown' grow $sphere -o a.ply --model schnakenberg --set d=5
+expect 2 '.*model "schnakenberg" is measured at the values of its file; with d = 5 it is unknown' grow $sphere -o a.ply --model schnakenberg --set d=5
 expect 2 '--set s: expected PARAM=VALUE' grow $sphere -o a.ply --set s
 expect 2 '--set s=1e: expected PARAM=VALUE' grow $sphere -o a.ply --set s=1e
 expect 2 'nothing to write' grow $sphere
