@@ -14,8 +14,8 @@
 #include "look/dress.h"
 #include "render/picture.h"
 #include "run/run.h"
+#include "verify/problem.h"
 #include "shape/generators.h"
-#include "support/discretisations.h"
 
 namespace pelage {
 namespace {
@@ -35,7 +35,7 @@ Program turing_program(std::int64_t vertices) {
   Recipe recipe;
   const double edge = std::sqrt(4 * 3.14159265358979 / static_cast<double>(vertices) * 2 / std::sqrt(3.0));
   recipe.stages[0].size = Given<Length>{{10 * edge, false}, {}};
-  return make_program(recipe, sphere(vertices)).front();
+  return make_program(recipe, sphere(vertices));
 }
 
 void read_and_check(benchmark::State& state, const char* extension) {
@@ -47,10 +47,10 @@ void read_and_check(benchmark::State& state, const char* extension) {
   std::filesystem::remove(path);
 }
 
-void assemble(benchmark::State& state, const char* method) {
+void assemble(benchmark::State& state, Discretisation (*discretise)(Topology)) {
   const ThreadLimit limit(threads(state));
   const TriangleMesh& mesh = sphere(state.range(0));
-  const Discretisation d = make_discretisation(method, make_topology(mesh.points.size(), mesh.triangles));
+  const Discretisation d = discretise(make_topology(mesh.points.size(), mesh.triangles));
   for (auto _ : state) {
     const Assembler assembler(d);
     benchmark::DoNotOptimize(assembler.mass(mesh.points));
@@ -62,7 +62,7 @@ void tabulate(benchmark::State& state) {
   const ThreadLimit limit(threads(state));
   const TriangleMesh& mesh = sphere(state.range(0));
   for (auto _ : state)
-    benchmark::DoNotOptimize(make_discretisation("loop", make_topology(mesh.points.size(), mesh.triangles)));
+    benchmark::DoNotOptimize(make_loop(make_topology(mesh.points.size(), mesh.triangles)));
 }
 
 /// A picture of 1024 x 1024 pixels of a mesh of about 2 * vertices triangles.
@@ -76,7 +76,7 @@ void picture(benchmark::State& state) {
 void step(benchmark::State& state) {
   const ThreadLimit limit(threads(state));
   Program program = turing_program(state.range(0));
-  program.stationary = 0;
+  program.stages[0].stationary = 0;
   Run run(std::move(program));
   run.advance(40);
   std::int64_t iterations = run.summary().iterations, steps = run.summary().steps;
@@ -95,6 +95,47 @@ void whole_run(benchmark::State& state) {
   }
 }
 
+/// From the end of a first stage to the beginning of a second one.
+void second_stage(benchmark::State& state) {
+  const ThreadLimit limit(threads(state));
+  Program program = turing_program(state.range(0));
+  program.stages[0].steps = 1;
+  program.stages.push_back(program.stages[0]);
+  program.stages[1].name = "second";
+  program.stages[1].steps = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    Run run(program);
+    run.advance(1);
+    state.ResumeTiming();
+    run.advance(1);
+  }
+}
+
+/// A step before which the surface moves, less a step without.
+void move(benchmark::State& state) {
+  const ThreadLimit limit(threads(state));
+  Program program = turing_program(state.range(0));
+  program.stages[0].stationary = 0;
+  program.motion.growth = 1e-6;
+  program.motion.every = state.range(2);
+  Run run(std::move(program));
+  run.advance(20);
+  for (auto _ : state) run.advance(1);
+}
+
+void dress_again(benchmark::State& state) {
+  const ThreadLimit limit(threads(state));
+  const Run run(turing_program(state.range(0)));
+  const CoatFields fields = run.fields();
+  Look look;
+  const Paint first = resolve_paint(look, fields.species);
+  look.ramp.value = "reef";
+  const Paint other = resolve_paint(look, fields.species);
+  const Tessellation t = tessellate(fields, tessellation_request(look, first));
+  for (auto _ : state) benchmark::DoNotOptimize(dress(t, other, fields.uniform));
+}
+
 void sizes(benchmark::internal::Benchmark* b) {
   b->ArgNames({"vertices", "threads"})->ArgsProduct({{10242, 40962, 163842, 655362}, {1, 2}});
   b->Unit(benchmark::kMillisecond)->UseRealTime()->MinTime(0.2);
@@ -109,8 +150,8 @@ void sizes_once(benchmark::internal::Benchmark* b) {
 BENCHMARK_CAPTURE(read_and_check, ply, ".ply")->Apply(sizes);
 BENCHMARK_CAPTURE(read_and_check, obj, ".obj")->Apply(sizes);
 BENCHMARK(tabulate)->Apply(sizes);
-BENCHMARK_CAPTURE(assemble, loop, "loop")->Apply(sizes);
-BENCHMARK_CAPTURE(assemble, linear, "linear")->Apply(sizes);
+BENCHMARK_CAPTURE(assemble, loop, make_loop)->Apply(sizes);
+BENCHMARK_CAPTURE(assemble, linear, make_linear)->Apply(sizes);
 BENCHMARK(step)->Apply(sizes);
 BENCHMARK(picture)
     ->ArgNames({"vertices", "threads"})
@@ -119,6 +160,14 @@ BENCHMARK(picture)
     ->Iterations(1)
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(second_stage)->Apply(sizes);
+BENCHMARK(move)
+    ->ArgNames({"vertices", "threads", "every"})
+    ->ArgsProduct({{10242, 40962, 163842}, {1, 2}, {1, 1000000}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MinTime(0.2);
+BENCHMARK(dress_again)->Apply(sizes);
 BENCHMARK(whole_run)->Apply(sizes_once);
 
 }  // namespace

@@ -14,8 +14,8 @@
 namespace pelage {
 
 struct PlannedStage {
-  Stage asked;  ///< what the recipe says
-  Model model;  ///< with what the stage changes in it
+  Stage asked;            ///< what the recipe says
+  Model model;            ///< with what the stage changes in it
   double wavelength = 0;  ///< of the model with its numbers, before formulas take the place of any [model length]
   const StepperKind* stepper = nullptr;
   std::optional<PlaceFormula> size_map;  ///< where a mesh alone tells it

@@ -24,6 +24,15 @@ struct ElementClass {
   Index functions() const { return static_cast<Index>(value.cols()); }
 };
 
+/// Basis functions of an element at any of its points.
+class ElementBasis {
+ public:
+  virtual ~ElementBasis() = default;
+  /// Rows: phi, d phi / dv, d phi / dw of the element's basis functions (columns, in the order of
+  /// Discretisation::function) at (1-v-w) a + v b + w c.
+  virtual RowMatrix at(std::size_t element, double v, double w) const = 0;
+};
+
 /// Coefficients are the values at control vertices; samples are the values of the function at the (limit) positions of
 /// the vertices. They coincide for linear elements only: sample = values * coefficients.
 struct Discretisation {
@@ -37,6 +46,7 @@ struct Discretisation {
   std::vector<std::int64_t> first_point;     ///< per triangle + 1: number of its first quadrature point
   SparseMatrix values;                       ///< samples x unknowns: the basis functions at the vertices
   SparseMatrix tangent1, tangent2;           ///< samples x unknowns: tangents at the vertices (Loop only; may be empty)
+  std::shared_ptr<const ElementBasis> basis;
 
   std::size_t elements() const { return element_class.size(); }
 };

@@ -21,6 +21,15 @@ ElementClass linear_element() {
   return element;
 }
 
+class LinearBasis final : public ElementBasis {
+ public:
+  RowMatrix at(std::size_t, double v, double w) const override {
+    RowMatrix jet(3, 3);
+    jet << 1 - v - w, v, w, -1, 1, 0, -1, 0, 1;
+    return jet;
+  }
+};
+
 SparseMatrix identity(Index n) {
   auto pattern = std::make_shared<SparsePattern>();
   pattern->rows = pattern->columns = n;
@@ -46,6 +55,7 @@ Discretisation linear_discretisation(std::shared_ptr<const Topology> shared) {
   }
   for (const Triangle& t : topology.triangles) d.function.insert(d.function.end(), t.begin(), t.end());
   d.values = identity(d.unknowns);
+  d.basis = std::make_shared<const LinearBasis>();
   d.topology = std::move(shared);
   return d;
 }

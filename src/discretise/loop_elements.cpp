@@ -82,6 +82,19 @@ SparseMatrix to_matrix(const Stencils& stencils) {
   return matrix;
 }
 
+class LoopBasis final : public ElementBasis {
+ public:
+  LoopBasis(LoopPatches patches, std::vector<Index> patch_class)
+      : patches_(std::move(patches)), patch_class_(std::move(patch_class)) {}
+  RowMatrix at(std::size_t element, double v, double w) const override {
+    return patches_.evaluate(patch_class_[element], v, w).topRows(3);
+  }
+
+ private:
+  LoopPatches patches_;
+  std::vector<Index> patch_class_;  ///< per element
+};
+
 void refuse_high_valence(const Topology& topology) {
   const Index valence = max_valence(topology);
   if (valence > max_loop_valence)
@@ -103,8 +116,10 @@ Discretisation loop_discretisation(std::shared_ptr<const Topology> shared, const
   d.function.reserve(12 * topology.triangles.size());
   LoopPatches patches;
   std::vector<Index> table;  // element class of a patch class; only some patch classes occur as elements
+  std::vector<Index> patch_classes;
   for (std::size_t f = 0; f < topology.triangles.size(); ++f) {
     const auto patch_class = static_cast<std::size_t>(patches.classify(topology, static_cast<Index>(f), d.function));
+    patch_classes.push_back(static_cast<Index>(patch_class));
     if (table.size() < patches.class_count()) table.resize(patches.class_count(), -1);
     if (table[patch_class] < 0) {
       table[patch_class] = static_cast<Index>(d.classes.size());
@@ -114,6 +129,7 @@ Discretisation loop_discretisation(std::shared_ptr<const Topology> shared, const
     d.first_function.push_back(static_cast<std::int64_t>(d.function.size()));
     d.first_point.push_back(d.first_point.back() + d.classes[static_cast<std::size_t>(table[patch_class])].points());
   }
+  d.basis = std::make_shared<const LoopBasis>(std::move(patches), std::move(patch_classes));
   const LimitMasks masks = loop_limit_masks(topology);
   d.values = to_matrix(masks.position);
   d.tangent1 = to_matrix(masks.tangent1);

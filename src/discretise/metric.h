@@ -18,21 +18,28 @@ struct Metric {
   double area = 0;  ///< area element, |x_v x x_w|
 };
 
-inline Metric metric(const ElementClass& c, Index q, const Index* function, const std::vector<Point>& control) {
+inline Metric metric(const Eigen::Vector3d& xv, const Eigen::Vector3d& xw) {
   Metric m;
-  for (Index i = 0; i < c.functions(); ++i) {
-    const Point& p = control[static_cast<std::size_t>(function[i])];
-    const double v = c.dv(q, i), w = c.dw(q, i);
-    for (int k = 0; k < 3; ++k) {
-      m.xv[k] += v * p[static_cast<std::size_t>(k)];
-      m.xw[k] += w * p[static_cast<std::size_t>(k)];
-    }
-  }
+  m.xv = xv;
+  m.xw = xw;
   m.g11 = m.xv.dot(m.xv);
   m.g12 = m.xv.dot(m.xw);
   m.g22 = m.xw.dot(m.xw);
   m.area = std::sqrt(std::max(0.0, m.g11 * m.g22 - m.g12 * m.g12));
   return m;
+}
+
+inline Metric metric(const ElementClass& c, Index q, const Index* function, const std::vector<Point>& control) {
+  Eigen::Vector3d xv = Eigen::Vector3d::Zero(), xw = Eigen::Vector3d::Zero();
+  for (Index i = 0; i < c.functions(); ++i) {
+    const Point& p = control[static_cast<std::size_t>(function[i])];
+    const double v = c.dv(q, i), w = c.dw(q, i);
+    for (int k = 0; k < 3; ++k) {
+      xv[k] += v * p[static_cast<std::size_t>(k)];
+      xw[k] += w * p[static_cast<std::size_t>(k)];
+    }
+  }
+  return metric(xv, xw);
 }
 
 /// A symmetric 2x2 matrix in the parameters (v, w).

@@ -24,6 +24,12 @@ struct PlaceGeometry {
   PrincipalCurvatures curvature;  ///< empty unless it was asked for
 };
 
+/// The functions of an element at one of its points.
+struct ElementPoint {
+  std::vector<Index> function;  ///< numbers of unknowns
+  RowMatrix jet;                ///< rows: value, d/dv, d/dw; columns as in `function`
+};
+
 /// Immutable, and shared by all stages of a run.
 class Space {
  public:
@@ -44,6 +50,9 @@ class Space {
   virtual SparseMatrix weighted_mass(const std::vector<double>& c) const = 0;
   virtual SparseMatrix stiffness(const std::vector<double>& c) const = 0;
   virtual SparseMatrix stiffness(const std::vector<Tensor>& c) const = 0;
+
+  /// At (1-v-w) a + v b + w c of the triangle `face` = (a, b, c).
+  virtual ElementPoint element_point(Index face, double v, double w) const = 0;
 
   virtual PlaceGeometry geometry(SampleRule rule, bool with_curvature) const = 0;
   /// Attributes, given at the nodes, at the quadrature points.

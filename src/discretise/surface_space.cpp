@@ -46,6 +46,13 @@ SparseMatrix SurfaceSpace::stiffness(const std::vector<Tensor>& c) const {
   return connectivity_->assembler.stiffness(control_, c);
 }
 
+ElementPoint SurfaceSpace::element_point(Index face, double v, double w) const {
+  const Discretisation& d = discretisation();
+  const auto e = static_cast<std::size_t>(face);
+  return {{d.function.begin() + d.first_function[e], d.function.begin() + d.first_function[e + 1]},
+          d.basis->at(e, v, w)};
+}
+
 PlaceGeometry SurfaceSpace::geometry(SampleRule rule, bool with_curvature) const {
   const Discretisation& d = discretisation();
   PlaceGeometry places;

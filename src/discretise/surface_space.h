@@ -31,6 +31,7 @@ class SurfaceSpace final : public Space {
   SparseMatrix weighted_mass(const std::vector<double>& c) const override;
   SparseMatrix stiffness(const std::vector<double>& c) const override;
   SparseMatrix stiffness(const std::vector<Tensor>& c) const override;
+  ElementPoint element_point(Index face, double v, double w) const override;
   PlaceGeometry geometry(SampleRule rule, bool with_curvature) const override;
   std::vector<double> at_quadrature_points(const std::vector<double>& at_nodes) const override;
   std::vector<Tensor> tensors(const std::vector<Tensor>& lines, const Kinetics::TensorField& rates) const override;

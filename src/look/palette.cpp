@@ -102,8 +102,9 @@ std::vector<Symbol> Paint::symbols() const {
 }
 
 Paint resolve_paint(const Look& look, std::vector<std::string> species) {
-  const Ramp ramp = located(look.ramp, [](const std::string& name) { return named_ramp(name); });
-  Paint paint{std::move(species), 0, RampTable(ramp), look.invert, {}};
+  if (std::ranges::count(ramp_names(), look.ramp.value) == 0)
+    throw Error(Fault::usage, unknown_name("ramp", look.ramp.value, ramp_names()), look.ramp.where);
+  Paint paint{std::move(species), 0, RampTable(named_ramp(look.ramp.value)), look.invert, {}};
   for (const Layer& layer : look.layers) paint.layers.push_back(resolve_layer(layer, paint.species));
   paint.shown = shown_species(paint.species, look);
   return paint;

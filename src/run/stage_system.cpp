@@ -168,9 +168,12 @@ void StageSystem::update(const State& state) {
     if (diffusion_varies_in_time(stage_->model, i)) fill_variable(i, &state);
 }
 
-Vector StageSystem::sampled_coefficients(const std::function<void(std::span<double>)>& fill) const {
+Vector StageSystem::sampled_coefficients(std::size_t i, const std::function<void(std::span<double>)>& fill) const {
   Vector samples(system_.sampling->count());
   fill(std::span<double>(samples.data(), static_cast<std::size_t>(samples.size())));
+  if (!samples.allFinite())
+    throw Error(Fault::usage, "model \"" + stage_->model.name() + "\": the initial values of " +
+                                  stage_->model.species_name(i) + " are not finite everywhere");
   return coefficients_from_samples(*system_.sampling, *system_.mass, samples);
 }
 
@@ -178,9 +181,9 @@ Vector StageSystem::sampled_coefficients(const std::function<void(std::span<doub
 std::vector<Vector> StageSystem::initial() const {
   std::vector<Vector> coefficients;
   for (std::size_t i = 0; i < stage_->model.species_count(); ++i) {
-    Vector& u = coefficients.emplace_back(sampled_coefficients([&](auto out) { kinetics_->initial(i, out); }));
+    Vector& u = coefficients.emplace_back(sampled_coefficients(i, [&](auto out) { kinetics_->initial(i, out); }));
     if (!material_->inside.empty() && stage_->model.pinned(i)) {
-      const Vector pin = sampled_coefficients([&](auto out) { kinetics_->pin(i, out); });
+      const Vector pin = sampled_coefficients(i, [&](auto out) { kinetics_->pin(i, out); });
       for (Eigen::Index k = 0; k < u.size(); ++k)
         if (material_->inside[static_cast<std::size_t>(k)]) u[k] = pin[k];
     }

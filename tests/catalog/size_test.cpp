@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "catalog/models.h"
 #include "catalog/bind.h"
-#include "shape/generators.h"
+#include "catalog/models.h"
 #include "react/wavelength.h"
+#include "shape/generators.h"
 
 namespace pelage {
 namespace {

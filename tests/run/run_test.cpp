@@ -161,13 +161,13 @@ TEST(Run, ReportsTheChangeOfTheLastWholeStepWhereTheEndCutsItShort) {
 
 TEST(Run, GivesUpWhereTheStepsAreFarTooShortForTheTime) {
   Program program = make_program(small_recipe("schnakenberg"), builtin_shape("builtin:sphere?n=162"));
-  program.stages[0].suggested_step = 100;  // where steps of a half are possible
-  program.stages[0].until = 2000;
+  program.stages[0].suggested_step = 1000;  // where steps of a half are possible
+  program.stages[0].until = 1500;
   program.stages[0].stationary = 0;
   pelage::Run run(std::move(program));
   run.advance(1'000'000);
   EXPECT_EQ(run.summary().status, RunStatus::failed);
-  EXPECT_EQ(run.summary().steps, 3001);
+  EXPECT_EQ(run.summary().steps, 1151);
   EXPECT_NE(run.summary().message.find("the fields change so fast that the step is"), std::string::npos)
       << run.summary().message;
 }

@@ -173,9 +173,14 @@ TEST_F(DiffusionModel, FrozenRegionsFeedTheirSurroundings) {
 }
 
 TEST_F(DiffusionModel, AMapOfAConstantIsThatConstant) {
-  const Growth number = finished(diffusion("parameters = { D = 4 }\n")),
-               formula = finished(diffusion("parameters = { D = \"2*2\" }\n")),
-               size = finished(diffusion("size-map = \"2\"\n"));
+  // With a size, a number would not change what diffuses how far: the unit follows it.
+  const auto by_unit = [](const std::string& more) {
+    std::string stage = diffusion(more);
+    return stage.replace(stage.find("size = "), 4, "unit");
+  };
+  const Growth number = finished(by_unit("parameters = { D = 4 }\n")),
+               formula = finished(by_unit("parameters = { D = \"2*2\" }\n")),
+               size = finished(by_unit("size-map = \"2\"\n"));
   EXPECT_EQ(number.coefficients(), formula.coefficients());
   // a map of the size also makes a finer mesh; both are about the same function
   EXPECT_NEAR(number.coefficients()[0].maxCoeff(), size.coefficients()[0].maxCoeff(), 1e-3);

@@ -231,7 +231,7 @@ TEST(Sbdf2, KeepsItsOrderWhenStepsVary) {
 
 /// du/dt = -u: exp(-400) is far below what can be squared.
 TEST_P(EveryStepper, ASpeciesThatDecaysToNothingCostsNoSteps) {
-  Bench setup(GetParam(), "builtin:sphere?n=42");
+  Bench setup(GetParam(), "builtin:sphere?n=162");
   setup.add_species("u", 0.01, 0);
   setup.add_species("v", 0.01, 1);
   setup.state.now[0] = tilted(setup.problem.control);

@@ -1,8 +1,8 @@
 // Every parameter of every shipped model may be anywhere in its range: a run then ends, or says why not, and soon.
 #include <gtest/gtest.h>
 
-#include "catalog/models.h"
 #include "catalog/bind.h"
+#include "catalog/models.h"
 #include "shape/generators.h"
 #include "verify/finished_pattern.h"
 
