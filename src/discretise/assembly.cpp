@@ -8,6 +8,15 @@
 #include "base/parallel.h"
 #include "discretise/metric.h"
 
+// One more version of a function for processors with AVX2, chosen when the program starts. Multiplications and
+// additions are not fused there either.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
+#define PELAGE_WIDER_REGISTERS __attribute__((target_clones("avx2", "default"), noinline))
+#else
+#define PELAGE_WIDER_REGISTERS
+#endif
+
 namespace pelage {
 
 /// Elements that contain each basis function, with its local number there.
@@ -60,7 +69,7 @@ void add_product(const double* left, const double* right, Index functions, Index
 
 /// The same, with the same bits, for sizes known to the compiler, which keeps the sums of a row in registers.
 template <int functions, int points>
-void add_product_fixed(const double* __restrict left, const double* __restrict right, double* __restrict out) {
+inline void add_product_fixed(const double* __restrict left, const double* __restrict right, double* __restrict out) {
   for (int i = 0; i < functions; ++i) {
     double sum[functions] = {};
     for (int q = 0; q < points; ++q) {
@@ -71,12 +80,33 @@ void add_product_fixed(const double* __restrict left, const double* __restrict r
   }
 }
 
+/// The same for elements with an extraordinary corner, up to a number of functions whose sums stay in the cache.
+constexpr Index most_functions_at_once = 64;
+PELAGE_WIDER_REGISTERS void add_product_by_rows(const double* __restrict left, const double* __restrict right,
+                                                Index functions, Index points, double* __restrict out) {
+  for (Index i = 0; i < functions; ++i) {
+    double sum[most_functions_at_once] = {};
+    for (Index q = 0; q < points; ++q) {
+      const double factor = left[q * functions + i];
+      for (Index j = 0; j < functions; ++j) sum[j] += factor * right[q * functions + j];
+    }
+    for (Index j = 0; j < functions; ++j) out[i * functions + j] += sum[j];
+  }
+}
+
+/// Wider registers hold more functions at a time; each sum has the same bits.
+PELAGE_WIDER_REGISTERS void add_product_regular(const double* left, const double* right, double* out) {
+  add_product_fixed<12, 6>(left, right, out);
+}
+
 }  // namespace
 
 void add_basis_product(const RowMatrix& left, const double* right, double* out) {
   const auto functions = static_cast<Index>(left.cols()), points = static_cast<Index>(left.rows());
   if (functions == 12 && points == 6)  // regular Loop elements
-    add_product_fixed<12, 6>(left.data(), right, out);
+    add_product_regular(left.data(), right, out);
+  else if (functions <= most_functions_at_once)
+    add_product_by_rows(left.data(), right, functions, points, out);
   else
     add_product(left.data(), right, functions, points, out);
 }
@@ -213,46 +243,60 @@ void Assembler::build(const FunctionElements& incident, std::vector<Offset>& off
 
 namespace {
 
-/// Adds the rows of one element's matrix that belong to `owner`.
-template <class Offset>
-void add_rows(const double* matrix, const Offset* offset, const Index* function, std::size_t n, const SparsePattern& p,
-              std::size_t owner, std::size_t owners, std::vector<double>& value) {
+/// Adds the rows of one element's matrices that belong to `owner`.
+template <std::size_t count, class Offset>
+void add_rows(const std::array<const double*, count>& matrix, const Offset* offset, const Index* function,
+              std::size_t n, const SparsePattern& p, std::size_t owner, std::size_t owners,
+              std::array<SparseMatrix, count>& result) {
   constexpr std::size_t row_block = 64;  // rows are dealt to the threads in blocks, so that near rows stay together
   for (std::size_t i = 0; i < n; ++i) {
     if (at(function[i]) / row_block % owners != owner) continue;
-    double* row = value.data() + p.start[at(function[i])];
-    for (std::size_t j = 0; j < n; ++j) row[offset[i * n + j]] += matrix[i * n + j];
+    const auto start = p.start[at(function[i])];
+    for (std::size_t k = 0; k < count; ++k) {
+      double* row = result[k].value.data() + start;
+      for (std::size_t j = 0; j < n; ++j) row[offset[i * n + j]] += matrix[k][i * n + j];
+    }
   }
 }
 
 }  // namespace
 
-template <class ElementMatrix>
-SparseMatrix Assembler::assemble(const ElementMatrix& element_matrix) const {
-  SparseMatrix result = zeros(pattern_);
+template <std::size_t count, class ElementMatrices>
+std::array<SparseMatrix, count> Assembler::assemble(const ElementMatrices& element_matrices) const {
+  std::array<SparseMatrix, count> result;
+  for (SparseMatrix& matrix : result) matrix = zeros(pattern_);
   // Element matrices are kept for one chunk at a time: 16 MB for regular Loop elements.
-  constexpr std::size_t chunk = 1 << 14;
+  constexpr std::size_t chunk = (1 << 14) / count;
   const auto owners = static_cast<std::size_t>(concurrency());
-  std::vector<double> buffer;
+  std::array<std::vector<double>, count> buffer;
   for (std::size_t first = 0; first < d_.elements(); first += chunk) {
     const std::size_t last = std::min(d_.elements(), first + chunk);
-    buffer.assign(static_cast<std::size_t>(matrix_start_[last] - matrix_start_[first]), 0.0);
+    for (auto& b : buffer) b.resize(static_cast<std::size_t>(matrix_start_[last] - matrix_start_[first]));
     parallel_for(
         last - first,
         [&](std::size_t begin, std::size_t end) {
           Scratch scratch;
-          for (std::size_t e = first + begin; e < first + end; ++e)
-            element_matrix(e, scratch, buffer.data() + (matrix_start_[e] - matrix_start_[first]));
+          std::array<double*, count> out;
+          for (std::size_t e = first + begin; e < first + end; ++e) {
+            for (std::size_t k = 0; k < count; ++k) {
+              out[k] = buffer[k].data() + (matrix_start_[e] - matrix_start_[first]);
+              std::fill_n(out[k], matrix_start_[e + 1] - matrix_start_[e], 0.0);
+            }
+            element_matrices(e, scratch, out);
+          }
         },
         256);
     parallel_chunks(owners, [&](std::size_t owner) {
       std::visit(
           [&](const auto& offset) {
-            for (std::size_t e = first; e < last; ++e)
-              add_rows(buffer.data() + (matrix_start_[e] - matrix_start_[first]), offset.data() + matrix_start_[e],
-                       d_.function.data() + d_.first_function[e],
+            std::array<const double*, count> matrix;
+            for (std::size_t e = first; e < last; ++e) {
+              for (std::size_t k = 0; k < count; ++k)
+                matrix[k] = buffer[k].data() + (matrix_start_[e] - matrix_start_[first]);
+              add_rows(matrix, offset.data() + matrix_start_[e], d_.function.data() + d_.first_function[e],
                        static_cast<std::size_t>(d_.first_function[e + 1] - d_.first_function[e]), *pattern_, owner,
-                       owners, result.value);
+                       owners, result);
+            }
           },
           offset_);
     });
@@ -261,19 +305,41 @@ SparseMatrix Assembler::assemble(const ElementMatrix& element_matrix) const {
 }
 
 SparseMatrix Assembler::mass(const std::vector<Point>& control, const std::vector<double>& factor) const {
-  return assemble([&](std::size_t e, Scratch& scratch, double* out) {
+  return std::move(assemble<1>([&](std::size_t e, Scratch& scratch, const std::array<double*, 1>& out) {
     const ElementClass& c = d_.classes[at(d_.element_class[e])];
     scratch.fit(c);
     for (Index q = 0; q < c.points(); ++q) {
       const double f = factor.empty() ? 1 : factor[static_cast<std::size_t>(d_.first_point[e] + q)];
       scratch.scale[at(q)] = f * c.weight[q] * metric(c, q, d_.function.data() + d_.first_function[e], control).area;
     }
-    mass_matrix(c, scratch, out);
+    mass_matrix(c, scratch, out[0]);
+  })[0]);
+}
+
+AssembledMatrices Assembler::mass_and_stiffness(const std::vector<Point>& control) const {
+  AssembledMatrices result;
+  result.area.resize(d_.elements());
+  auto matrices = assemble<2>([&](std::size_t e, Scratch& scratch, const std::array<double*, 2>& out) {
+    const ElementClass& c = d_.classes[at(d_.element_class[e])];
+    scratch.fit(c);
+    double area = 0;
+    for (Index q = 0; q < c.points(); ++q) {
+      const Metric m = metric(c, q, d_.function.data() + d_.first_function[e], control);
+      scratch.scale[at(q)] = c.weight[q] * m.area;
+      scratch.form[at(q)] = gradient_form(m, c.weight[q]);
+      area += scratch.scale[at(q)];
+    }
+    result.area[e] = area;
+    mass_matrix(c, scratch, out[0]);
+    stiffness_matrix(c, scratch, out[1]);
   });
+  result.mass = std::move(matrices[0]);
+  result.stiffness = std::move(matrices[1]);
+  return result;
 }
 
 SparseMatrix Assembler::stiffness(const std::vector<Point>& control, const std::vector<double>& factor) const {
-  return assemble([&](std::size_t e, Scratch& scratch, double* out) {
+  return std::move(assemble<1>([&](std::size_t e, Scratch& scratch, const std::array<double*, 1>& out) {
     const ElementClass& c = d_.classes[at(d_.element_class[e])];
     scratch.fit(c);
     for (Index q = 0; q < c.points(); ++q) {
@@ -281,19 +347,19 @@ SparseMatrix Assembler::stiffness(const std::vector<Point>& control, const std::
       scratch.form[at(q)] =
           gradient_form(metric(c, q, d_.function.data() + d_.first_function[e], control), f * c.weight[q]);
     }
-    stiffness_matrix(c, scratch, out);
-  });
+    stiffness_matrix(c, scratch, out[0]);
+  })[0]);
 }
 
 SparseMatrix Assembler::stiffness(const std::vector<Point>& control, const std::vector<Tensor>& tensor) const {
-  return assemble([&](std::size_t e, Scratch& scratch, double* out) {
+  return std::move(assemble<1>([&](std::size_t e, Scratch& scratch, const std::array<double*, 1>& out) {
     const ElementClass& c = d_.classes[at(d_.element_class[e])];
     scratch.fit(c);
     for (Index q = 0; q < c.points(); ++q)
       scratch.form[at(q)] = gradient_form(metric(c, q, d_.function.data() + d_.first_function[e], control), c.weight[q],
                                           tensor[static_cast<std::size_t>(d_.first_point[e] + q)]);
-    stiffness_matrix(c, scratch, out);
-  });
+    stiffness_matrix(c, scratch, out[0]);
+  })[0]);
 }
 
 }  // namespace pelage

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "base/parallel.h"
 #include "linalg/conjugate_gradient.h"
@@ -30,15 +31,20 @@ std::vector<Point> apply_to_points(const SparseMatrix& a, const std::vector<Poin
   return result;
 }
 
-/// A third of the area of the triangles around each vertex, measured by the quadrature.
-Vector area_share(const Discretisation& d, const std::vector<Point>& control) {
+/// By the quadrature.
+std::vector<double> element_areas(const Discretisation& d, const std::vector<Point>& control) {
   const QuadratureGeometry g = quadrature_geometry(d, control);
+  std::vector<double> areas(d.elements(), 0.0);
+  for (std::size_t e = 0; e < d.elements(); ++e)
+    for (auto q = d.first_point[e]; q < d.first_point[e + 1]; ++q) areas[e] += g.weight[at(q)];
+  return areas;
+}
+
+/// A third of the area of the triangles around each vertex.
+Vector area_share(const Discretisation& d, const std::vector<double>& area) {
   Vector share = Vector::Zero(d.unknowns);
-  for (std::size_t e = 0; e < d.elements(); ++e) {
-    double area = 0;
-    for (auto q = d.first_point[e]; q < d.first_point[e + 1]; ++q) area += g.weight[at(q)];
-    for (Index v : d.topology->triangles[e]) share[v] += area / 3;
-  }
+  for (std::size_t e = 0; e < d.elements(); ++e)
+    for (Index v : d.topology->triangles[e]) share[v] += area[e] / 3;
   return share;
 }
 
@@ -48,11 +54,11 @@ void give_isolated_vertices_weight(Vector& weight) {
     if (!(w > 0)) w = 1;
 }
 
-Vector vertex_weights(const Discretisation& d, const std::vector<Point>& control, const SparseMatrix& transposed,
+Vector vertex_weights(const Discretisation& d, const std::vector<double>& area, const SparseMatrix& transposed,
                       const SparseMatrix& mass) {
   const Vector ones = Vector::Ones(d.unknowns);
   const Vector integral = mass * ones;
-  const Vector share = area_share(d, control);
+  const Vector share = area_share(d, area);
   Vector weight = d.nodal ? integral : solve_general(transposed, integral);
   weight = weight.cwiseMax(0.1 * share);
   weight *= integral.sum() / weight.sum();
@@ -75,10 +81,15 @@ std::vector<Point> limit_normals(const Discretisation& d, const std::vector<Poin
 }
 
 Sampling vertex_sampling(const Discretisation& d, const std::vector<Point>& control, const SparseMatrix& mass) {
+  return vertex_sampling(d, control, mass, transpose(d.values), element_areas(d, control));
+}
+
+Sampling vertex_sampling(const Discretisation& d, const std::vector<Point>& control, const SparseMatrix& mass,
+                         SparseMatrix transposed, const std::vector<double>& area) {
   Sampling s;
   s.values = d.values;
-  s.transposed = transpose(d.values);
-  s.weight = vertex_weights(d, control, s.transposed, mass);
+  s.transposed = std::move(transposed);
+  s.weight = vertex_weights(d, area, s.transposed, mass);
   s.position = limit_positions(d, control);
   return s;
 }
@@ -99,14 +110,17 @@ SparseMatrix sampled_mass(const Sampling& s, const Vector& weight,
   const SparsePattern& samples_of = *s.transposed.pattern;
   const SparsePattern& functions_of = *s.values.pattern;
   parallel_for(at(pattern->rows), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
+    // Where in row i a column is; of the columns of other rows it knows nothing.
+    const std::unique_ptr<std::int64_t[]> place(new std::int64_t[at(pattern->columns)]);
+    for (std::size_t i = begin; i < end; ++i) {
+      for (auto k = pattern->start[i]; k < pattern->start[i + 1]; ++k) place[at(pattern->column[at(k)])] = k;
       for (auto k = samples_of.start[i]; k < samples_of.start[i + 1]; ++k) {
         const auto sample = at(samples_of.column[at(k)]);
         const double factor = s.transposed.value[at(k)] * weight[static_cast<Eigen::Index>(sample)];
         for (auto j = functions_of.start[sample]; j < functions_of.start[sample + 1]; ++j)
-          mass.value[at(pattern->find(static_cast<std::int32_t>(i), functions_of.column[at(j)]))] +=
-              factor * s.values.value[at(j)];
+          mass.value[at(place[at(functions_of.column[at(j)])])] += factor * s.values.value[at(j)];
       }
+    }
   });
   return mass;
 }

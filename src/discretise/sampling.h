@@ -27,6 +27,9 @@ struct Sampling {
 /// (some are negative on uneven meshes) are raised to it, and all are scaled to keep the total area.
 Sampling vertex_sampling(const Discretisation& discretisation, const std::vector<Point>& control,
                          const SparseMatrix& mass);
+/// The same from what is known already: the transpose of discretisation.values, and the area of every element.
+Sampling vertex_sampling(const Discretisation& discretisation, const std::vector<Point>& control,
+                         const SparseMatrix& mass, SparseMatrix transposed, const std::vector<double>& area);
 
 /// Samples at the quadrature points, the reference.
 Sampling quadrature_sampling(const Discretisation& discretisation, const std::vector<Point>& control);

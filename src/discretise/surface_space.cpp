@@ -7,30 +7,38 @@ namespace pelage {
 SurfaceSpace::SurfaceSpace(std::shared_ptr<const Connectivity> connectivity, std::vector<Point> control)
     : connectivity_(std::move(connectivity)), control_(std::move(control)) {}
 
+void SurfaceSpace::assemble() const {
+  if (stiffness_) return;
+  assembled_ = connectivity_->assembler.mass_and_stiffness(control_);
+  stiffness_ = std::make_shared<const SparseMatrix>(std::move(assembled_->stiffness));
+}
+
 SampledMass SurfaceSpace::sampled(SampleRule rule) const {
+  const std::lock_guard lock(making_);
   const Discretisation& d = discretisation();
+  SampledMass& made = rule == SampleRule::vertices ? at_vertices_ : at_quadrature_;
+  if (made.sampling) return made;
+  assemble();
+  const bool fresh = assembled_.has_value();
+  SparseMatrix mass = fresh ? std::move(assembled_->mass) : connectivity_->assembler.mass(control_);
   if (rule == SampleRule::quadrature) {
-    std::call_once(at_quadrature_made_, [&] {
-      at_quadrature_ = {std::make_shared<const Sampling>(quadrature_sampling(d, control_)),
-                        std::make_shared<const SparseMatrix>(connectivity_->assembler.mass(control_))};
-    });
-    return at_quadrature_;
+    made.sampling = std::make_shared<const Sampling>(quadrature_sampling(d, control_));
+  } else {
+    made.sampling = std::make_shared<const Sampling>(
+        fresh ? vertex_sampling(d, control_, mass, connectivity_->transposed_values, assembled_->area)
+              : vertex_sampling(d, control_, mass));
+    mass = sampled_mass(*made.sampling, made.sampling->weight, connectivity_->assembler.pattern());
   }
-  std::call_once(at_vertices_made_, [&] {
-    auto sampling =
-        std::make_shared<const Sampling>(vertex_sampling(d, control_, connectivity_->assembler.mass(control_)));
-    SparseMatrix mass = sampled_mass(*sampling, sampling->weight, connectivity_->assembler.pattern());
-    at_vertices_ = {std::move(sampling), std::make_shared<const SparseMatrix>(std::move(mass))};
-  });
-  return at_vertices_;
+  made.mass = std::make_shared<const SparseMatrix>(std::move(mass));
+  assembled_.reset();
+  return made;
 }
 
 SparseMatrix SurfaceSpace::quadrature_values() const { return pelage::quadrature_values(discretisation()); }
 
 SharedMatrix SurfaceSpace::stiffness() const {
-  std::call_once(stiffness_made_, [&] {
-    stiffness_ = std::make_shared<const SparseMatrix>(connectivity_->assembler.stiffness(control_));
-  });
+  const std::lock_guard lock(making_);
+  assemble();
   return stiffness_;
 }
 

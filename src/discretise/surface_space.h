@@ -2,6 +2,7 @@
 // Finite elements on a triangulated surface as a Space.
 
 #include <mutex>
+#include <optional>
 
 #include "discretise/discretisation.h"
 #include "discretise/space.h"
@@ -14,9 +15,14 @@ class SurfaceSpace final : public Space {
   struct Connectivity {
     Discretisation discretisation;
     Assembler assembler;
+    SparseMatrix transposed_values;
     int reach;  ///< rings of triangles around a vertex that its basis function covers
 
-    Connectivity(Discretisation d, int rings) : discretisation(std::move(d)), assembler(discretisation), reach(rings) {}
+    Connectivity(Discretisation d, int rings)
+        : discretisation(std::move(d)),
+          assembler(discretisation),
+          transposed_values(transpose(discretisation.values)),
+          reach(rings) {}
   };
 
   SurfaceSpace(std::shared_ptr<const Connectivity> connectivity, std::vector<Point> control);
@@ -42,9 +48,12 @@ class SurfaceSpace final : public Space {
  private:
   std::shared_ptr<const Connectivity> connectivity_;
   std::vector<Point> control_;
+  void assemble() const;
+
   // Made when they are first asked for.
-  mutable std::once_flag stiffness_made_, at_vertices_made_, at_quadrature_made_;
+  mutable std::mutex making_;
   mutable SharedMatrix stiffness_;
+  mutable std::optional<AssembledMatrices> assembled_;  ///< until the samples are made of it
   mutable SampledMass at_vertices_, at_quadrature_;
 };
 

@@ -6,6 +6,7 @@
 #include "base/quantile.h"
 #include "base/suggest.h"
 #include "pelage/error.h"
+#include "react/place_values.h"
 
 namespace pelage {
 
@@ -58,7 +59,6 @@ Places places_of(const CoatSamples& s, const std::vector<std::string>& species) 
   for (const auto& [name, values] : s.attributes) places.attributes[name] = values;
   for (std::size_t i = 0; i < species.size(); ++i) places.attributes[species[i]] = s.fields[i];
   places.length_unit = s.length_unit;
-  places.drawn_at = s.drawn_at;
   return places;
 }
 
@@ -123,7 +123,11 @@ Palette make_palette(Paint paint, const CoatSamples& samples, const std::vector<
 std::vector<double> paint(const CoatSamples& samples, const Palette& palette) {
   std::vector<double> colors = ramp_colors(samples.fields[palette.paint.shown], palette);
   if (palette.paint.layers.empty()) return colors;
-  const Places places = places_of(samples, palette.paint.species);
+  Places places = places_of(samples, palette.paint.species);
+  std::vector<DrawnField> drawn;
+  if (!samples.drawn_at.empty())
+    drawn = draw_random_fields(palette.paint.symbols(), samples.drawn_at, samples.length_unit, samples.seed);
+  places.drawn = drawn;
   for (const PaintLayer& layer : palette.paint.layers) paint_layer(layer, places, samples.seed, colors);
   return colors;
 }

@@ -13,6 +13,12 @@
 
 namespace pelage {
 
+/// A random field that has been drawn: one value per place.
+struct DrawnField {
+  Symbol symbol;
+  std::vector<double> values;
+};
+
 /// Where the samples lie. All arrays have one entry per sample; those that the model does not use may be empty.
 struct Places {
   std::span<const Point> positions = {};                           ///< world units; always needed
@@ -20,9 +26,9 @@ struct Places {
   std::span<const double> k1 = {}, k2 = {};                        ///< principal curvatures, 1 / world unit
   std::map<std::string, std::span<const double>> attributes = {};  ///< vertex attributes of the mesh by name
   double length_unit = 1;                                          ///< world length of one model length unit
-  std::span<const Point> drawn_at = {};  ///< where random fields are drawn: places that have moved carry them along;
-                                         ///< empty: the positions
-  std::span<const double> mask = {};     ///< of the stage
+  std::span<const DrawnField> drawn = {};  ///< random fields that places which move carry along; others are drawn where
+                                           ///< the places are
+  std::span<const double> mask = {};       ///< of the stage
 };
 
 /// Species values: u[s][i] is the concentration of species s at sample i.

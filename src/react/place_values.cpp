@@ -66,10 +66,11 @@ void require_attribute(const Symbol& symbol, const std::vector<std::string>& nam
 namespace {
 
 std::vector<double> random_values(const Symbol& symbol, const Places& places, std::uint64_t seed) {
+  for (const DrawnField& drawn : places.drawn)
+    if (drawn.symbol == symbol) return drawn.values;
   const std::uint64_t stream = hash(seed, symbol.stream);
-  const auto drawn_at = places.drawn_at.empty() ? places.positions : places.drawn_at;
-  return tabulate(drawn_at.size(), [&](std::size_t i) {
-    const Point& p = drawn_at[i];
+  return tabulate(places.positions.size(), [&](std::size_t i) {
+    const Point& p = places.positions[i];
     if (symbol.kind == Symbol::Kind::uniform) return uniform(place_key(stream, p), 0);
     if (symbol.kind == Symbol::Kind::gaussian) return gaussian(place_key(stream, p));
     return smooth_noise(p, symbol.length * places.length_unit, stream);
@@ -116,6 +117,16 @@ std::vector<double> place_values(const Symbol& symbol, const Places& places, std
     default:
       return random_values(symbol, places, seed);
   }
+}
+
+std::vector<DrawnField> draw_random_fields(const std::vector<Symbol>& symbols, std::span<const Point> places,
+                                           double length_unit, std::uint64_t seed) {
+  const Places at{.positions = places, .length_unit = length_unit};
+  std::vector<DrawnField> fields;
+  for (const Symbol& s : symbols)
+    if (s.kind == Symbol::Kind::uniform || s.kind == Symbol::Kind::gaussian || s.kind == Symbol::Kind::noise)
+      fields.push_back({s, random_values(s, at, seed)});
+  return fields;
 }
 
 std::vector<std::vector<double>> evaluate_places(const Graph& graph, const std::vector<NodeId>& expressions,

@@ -13,6 +13,10 @@ namespace pelage {
 /// located where the formula uses the symbol if the places do not have it.
 std::vector<double> place_values(const Symbol& symbol, const Places& places, std::uint64_t seed);
 
+/// Those of the symbols that are random, drawn at some places.
+std::vector<DrawnField> draw_random_fields(const std::vector<Symbol>& symbols, std::span<const Point> places,
+                                           double length_unit, std::uint64_t seed);
+
 /// Values at all places of expressions that depend on the place alone. Small integer powers should have been written as
 /// products (expand_powers).
 std::vector<std::vector<double>> evaluate_places(const Graph& graph, const std::vector<NodeId>& expressions,

@@ -70,11 +70,10 @@ void add_mask(const StageProgram& stage, const Space& space, Material& material)
   material.held = std::make_shared<const Held>(stage.excluded ? space.interior(material.inside) : material.inside);
 }
 
-/// Initial places of the samples; none where they stay there, or nothing is drawn.
-std::vector<Point> drawn_at(const World& world, const std::vector<Symbol>& symbols, SampleRule rule) {
-  using Kind = Symbol::Kind;
-  const bool random = reads(symbols, Kind::uniform) || reads(symbols, Kind::gaussian) || reads(symbols, Kind::noise);
-  return world.surface() && random ? world.initial_positions(rule) : std::vector<Point>{};
+/// At the initial places of the samples; nothing where they stay there.
+std::vector<DrawnField> drawn_once(const World& world, const StageProgram& stage, SampleRule rule) {
+  if (!world.surface()) return {};
+  return draw_random_fields(place_symbols(stage.model), world.initial_positions(rule), stage.length_unit, stage.seed);
 }
 
 /// The shape as it is now.
@@ -122,7 +121,7 @@ Places PlaceFields::places(const Material::AtSamples& material, double length_un
                 .k2 = geometry.curvature.k2};
   for (const auto& [name, values] : attributes) places.attributes[name] = values;
   places.length_unit = length_unit;
-  places.drawn_at = material.drawn_at;
+  places.drawn = material.drawn;
   places.mask = material.mask;
   return places;
 }
@@ -139,10 +138,9 @@ Material make_material(const Program& program, const StageProgram& stage, const 
   const Space& space = world.space();
   Material material;
   material.attributes = attributes_at_nodes(program, stage, world, fields);
-  const std::vector<Symbol> symbols = place_symbols(stage.model);
-  material.at_nodes.drawn_at = drawn_at(world, symbols, SampleRule::vertices);
+  material.at_nodes.drawn = drawn_once(world, stage, SampleRule::vertices);
   if (has_own_stiffness(stage.model) || stage.stepper->samples == SampleRule::quadrature)
-    material.at_quadrature_points.drawn_at = drawn_at(world, symbols, SampleRule::quadrature);
+    material.at_quadrature_points.drawn = drawn_once(world, stage, SampleRule::quadrature);
   if (stage.model.anisotropic() && world.hierarchy())
     material.lines = vertex_lines(shape_now(program, world), stage.directions, *world.hierarchy());
   if (stage.model.held()) add_mask(stage, space, material);

@@ -15,8 +15,8 @@ struct Material {
 
   /// At samples that move.
   struct AtSamples {
-    std::vector<Point> drawn_at;  ///< where they were when random fields were drawn; empty: where they are
-    std::vector<double> mask;     ///< not 0 inside; empty without a mask
+    std::vector<DrawnField> drawn;  ///< the random fields, drawn at the initial place; none where it stays there
+    std::vector<double> mask;       ///< not 0 inside; empty without a mask
   };
   AtSamples at_nodes, at_quadrature_points;
 

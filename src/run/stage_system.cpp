@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "discretise/anisotropy.h"
 #include "pelage/error.h"
@@ -168,22 +169,45 @@ void StageSystem::update(const State& state) {
     if (diffusion_varies_in_time(stage_->model, i)) fill_variable(i, &state);
 }
 
-Vector StageSystem::sampled_coefficients(std::size_t i, const std::function<void(std::span<double>)>& fill) const {
+Vector StageSystem::samples_of(std::size_t i, const std::function<void(std::span<double>)>& fill) const {
   Vector samples(system_.sampling->count());
   fill(std::span<double>(samples.data(), static_cast<std::size_t>(samples.size())));
   if (!samples.allFinite())
     throw Error(Fault::usage, "model \"" + stage_->model.name() + "\": the initial values of " +
                                   stage_->model.species_name(i) + " are not finite everywhere");
-  return coefficients_from_samples(*system_.sampling, *system_.mass, samples);
+  return samples;
 }
+
+namespace {
+
+/// Fields that begin the same are solved for once.
+class SolvedOnce {
+ public:
+  template <class Solve>
+  const Vector& coefficients(const Vector& samples, Solve&& solve) {
+    for (const auto& [known, result] : solved_)
+      if (known == samples) return result;
+    return solved_.emplace_back(samples, solve(samples)).second;
+  }
+
+ private:
+  std::deque<std::pair<Vector, Vector>> solved_;
+};
+
+}  // namespace
 
 /// Pinned and other values are two smooth fields; a jump between their samples would make the coefficients overshoot.
 std::vector<Vector> StageSystem::initial() const {
   std::vector<Vector> coefficients;
+  SolvedOnce solved;
+  const auto solve = [&](const Vector& samples) {
+    return coefficients_from_samples(*system_.sampling, *system_.mass, samples);
+  };
   for (std::size_t i = 0; i < stage_->model.species_count(); ++i) {
-    Vector& u = coefficients.emplace_back(sampled_coefficients(i, [&](auto out) { kinetics_->initial(i, out); }));
+    Vector& u = coefficients.emplace_back(
+        solved.coefficients(samples_of(i, [&](auto out) { kinetics_->initial(i, out); }), solve));
     if (!material_->inside.empty() && stage_->model.pinned(i)) {
-      const Vector pin = sampled_coefficients(i, [&](auto out) { kinetics_->pin(i, out); });
+      const Vector& pin = solved.coefficients(samples_of(i, [&](auto out) { kinetics_->pin(i, out); }), solve);
       for (Eigen::Index k = 0; k < u.size(); ++k)
         if (material_->inside[static_cast<std::size_t>(k)]) u[k] = pin[k];
     }

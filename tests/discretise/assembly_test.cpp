@@ -95,6 +95,33 @@ TEST(Assembly, AgreesWithThePlainDenseLoop) {
     }
 }
 
+/// The fast ways have the bits of the plain ones.
+TEST(Assembly, BothMatricesAtOnceAreThoseOneByOne) {
+  for (const char* method : {"loop", "linear"})
+    for (const TriangleMesh& mesh : surfaces()) {
+      const Discretisation d = discretise(mesh, method);
+      const Assembler assembler(d);
+      const AssembledMatrices both = assembler.mass_and_stiffness(mesh.points);
+      EXPECT_EQ(both.mass.value, assembler.mass(mesh.points).value);
+      EXPECT_EQ(both.stiffness.value, assembler.stiffness(mesh.points).value);
+      double area = 0, expected = 0;
+      for (const double a : both.area) area += a;
+      for (const double w : quadrature_geometry(d, mesh.points).weight) expected += w;
+      EXPECT_NEAR(area / expected, 1, 1e-13);
+    }
+}
+
+TEST(Assembly, BasisProductsOfAnySizeHaveTheSameBits) {
+  for (const auto& [points, functions] : {std::pair{6, 12}, {24, 11}, {24, 17}, {24, 64}, {3, 65}}) {
+    const RowMatrix left = RowMatrix::Random(points, functions), right = RowMatrix::Random(points, functions);
+    const auto size = static_cast<std::size_t>(functions * functions);
+    std::vector<double> fast(size, 0.0), plain(size, 0.0);
+    add_basis_product(left, right.data(), fast.data());
+    add_basis_product_plain(left, right.data(), plain.data());
+    EXPECT_EQ(fast, plain) << functions;
+  }
+}
+
 TEST(Assembly, FactorsAreTakenAtTheirQuadraturePoint) {
   const TriangleMesh mesh = builtin_shape("builtin:sphere?n=162");
   const Discretisation d = discretise(mesh);
