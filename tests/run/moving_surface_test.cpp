@@ -164,6 +164,46 @@ TEST(MovingSurface, TheMeshIsMadeForTheLargestSize) {
   EXPECT_GT(levels(growing), levels(still));
 }
 
+/// u' = f, without diffusion, on a sphere that grows or stays: with values that ride along, the same at every vertex.
+Vector accumulated(const std::string& rate, const std::string& more, double growth) {
+  Recipe recipe =
+      parse_recipe("[stage]\nmodel = \"turing\"\nsize = \"2u\"\nstep = 0.5\nuntil = 10\n" + more, "test.toml");
+  recipe.motion.growth = growth;
+  recipe.motion.every = 2;
+  Program program = make_program(recipe, builtin_shape("builtin:sphere?n=362"));
+  ModelChanges changes;
+  if (recipe.stages[0].mask) changes.mask = Formula{recipe.stages[0].mask->value, {}};
+  changes.excluded = program.stages[0].excluded;
+  program.stages[0].model = compile(
+      parse_model("name = \"sum\"\n[species.u]\nrate = \"" + rate + "\"\ndiffusion = 0\ninitial = 1\n", "sum.toml"), {},
+      changes);
+  program.stages[0].stationary = 0;
+  program.edge = 1e9;
+  Growth run(std::move(program));
+  run.advance(1000);
+  EXPECT_EQ(run.summary().status, RunStatus::time_reached);
+  return run.coefficients()[0];
+}
+
+/// White noise used to be drawn anew at every move, and smooth noise stayed where the surface had been.
+TEST(MovingSurface, CarriesRandomFieldsAlong) {
+  for (const char* rate : {"uniform(0, 1)", "normal(0, 1)", "noise(0.3)"}) {
+    const Vector still = accumulated(rate, "", 0), moved = accumulated(rate, "", 0.05);
+    EXPECT_GT((still.array() - still.mean()).matrix().norm(), 0.1 * still.norm()) << rate;
+    EXPECT_LT((still - moved).norm(), 1e-4 * still.norm()) << rate;
+  }
+}
+
+/// A mask of coordinates used to move over the surface while what it held stayed.
+TEST(MovingSurface, CarriesMasksAlong) {
+  for (const char* inside : {"frozen", "excluded"}) {
+    const std::string mask = "mask = \"z > 0.3\"\ninside = \"" + std::string(inside) + "\"\n";
+    const Vector still = accumulated("1", mask, 0), moved = accumulated("1", mask, 0.05);
+    EXPECT_GT(still.maxCoeff() - still.minCoeff(), 5) << inside;
+    EXPECT_LT((still - moved).norm(), 1e-4 * still.norm()) << inside;
+  }
+}
+
 TEST(MovingSurface, ImpossibleMotionsAreRefused) {
   Recipe recipe = moving_recipe();
   recipe.motion.growth = 1;

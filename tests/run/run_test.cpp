@@ -104,6 +104,51 @@ TEST(Run, DamagedCheckpointsAreRefused) {
   EXPECT_EQ(run.coefficients()[0], before[0]);
 }
 
+/// Of equal sizes, but another run.
+TEST(Run, CheckpointsOfOtherProgramsAreRefused) {
+  auto run = start(small_recipe("schnakenberg"));
+  run.advance(5);
+  const std::string checkpoint = run.checkpoint();
+  start(small_recipe("schnakenberg")).restore(checkpoint);
+  Recipe seed = small_recipe("schnakenberg"), method = seed, parameter = seed, size = seed;
+  seed.stages[0].seed = 2;
+  method.stages[0].method.value = "linear";
+  parameter.stages[0].parameters = {{"a", 0.11, {}}};
+  size.stages[0].size->value.value *= 0.999;
+  for (const Recipe& other : {seed, method, parameter, size, small_recipe("brusselator")}) {
+    auto another = start(other);
+    another.advance(3);
+    const std::string before = another.checkpoint();
+    EXPECT_THROW(another.restore(checkpoint), Error);
+    EXPECT_TRUE(another.checkpoint() == before);
+    another.advance(1);  // goes on as if nothing had been
+  }
+}
+
+TEST(Run, CheckpointsAreLittleEndian) {
+  auto run = start(small_recipe());
+  run.advance(5);
+  const std::string bytes = run.checkpoint();
+  const std::size_t step = std::string("pelage checkpoint 3\n").size() + 16;  // behind fingerprint and time
+  EXPECT_EQ(bytes.substr(step, 8), std::string("\x05\0\0\0\0\0\0\0", 8));
+}
+
+TEST(Run, SaysWhenNothingHasGrown) {
+  Recipe recipe = small_recipe("gray-scott");  // its only state is stable there
+  recipe.stages[0].parameters = {{"F", 0.1, {}}, {"k", 0.03, {}}};
+  recipe.stages[0].unit = Given<Length>{{0.02, true}, {}};
+  recipe.stages[0].size.reset();
+  auto quiet = start(recipe, "builtin:sphere?n=162");
+  quiet.advance(100000);
+  EXPECT_TRUE(quiet.uniform());
+  EXPECT_FALSE(quiet.why_uniform().empty());
+  for (const char uniform : quiet.fields().uniform) EXPECT_TRUE(uniform);
+  auto grown = start(small_recipe());
+  EXPECT_TRUE(grown.uniform());
+  grown.advance(100000);
+  EXPECT_FALSE(grown.uniform());
+}
+
 /// Every number of the history must fit, too: a checkpoint whose earlier states have another size would be read beyond
 /// their ends.
 TEST(Run, CheckpointsWithADamagedHistoryAreRefused) {

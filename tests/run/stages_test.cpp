@@ -89,6 +89,33 @@ TEST(Stages, SlicesAndCheckpointsInsideTheSecondStageKeepTheBits) {
   EXPECT_TRUE(sliced.checkpoint() == whole.checkpoint());
 }
 
+/// Where progress asks to stop while a stage begins, the run stays at the end of the one before.
+TEST(Stages, BeginWithProgressAndCanBeCancelled) {
+  bool stop = false;
+  std::string seen;
+  const Progress progress = [&](std::string_view what, double) {
+    seen += std::string(what) + "\n";
+    return !(stop && what.starts_with("stage small"));
+  };
+  Growth run(make_program(parse_recipe(two_stages, "test.toml"), builtin_shape("builtin:sphere?n=642")), progress);
+  EXPECT_NE(seen.find("stage large: sampling"), std::string::npos);
+  stop = true;
+  run.advance(60);
+  const std::string before = run.checkpoint();
+  try {
+    run.advance(1);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::cancelled);
+  }
+  EXPECT_TRUE(run.checkpoint() == before);
+  stop = false;
+  run.advance(1000);
+  Growth whole = start(two_stages);
+  whole.advance(1000);
+  EXPECT_TRUE(run.checkpoint() == whole.checkpoint());
+}
+
 /// Oscillations do not settle: the stage ends at its time, and the next one begins.
 TEST(Stages, OneThatNeverComesToRestEndsAtItsTime) {
   Growth run = start(
