@@ -125,6 +125,29 @@ GrowReport::Form form_of(const GrowOptions& options) {
   return options.quiet ? GrowReport::Form::nothing : GrowReport::Form::lines;
 }
 
+/// The coat when it has grown, and the shape as it was given. The run and its matrices are gone when pictures are
+/// drawn.
+struct Grown {
+  TriangleMesh coat;
+  std::shared_ptr<const TriangleMesh> shape;
+};
+
+Grown grown_coat(const GrowOptions& options, const Plan& planned, const Look& look, TriangleMesh shape,
+                 std::vector<Texture> images, const Progress& progress, GrowReport& report) {
+  Run run = interruptible("before the growth began; nothing was written",
+                          [&] { return Run(bind_plan(planned, std::move(shape), std::move(images)), progress); });
+  restore(run, options.resume);
+  report.warnings(run);
+  report.pattern(run);
+  const Stopwatch growth;
+  grow_to_the_end(run, options, progress, report);
+  report.growth(run, growth.seconds());
+  if (run.world().surface()) report.surface(*run.world().surface());
+  if (!options.checkpoint.empty()) report.file(options.checkpoint);
+  progress("colouring", 0);
+  return {dress(run.fields(), look), run.program().shape};
+}
+
 void grow(const GrowOptions& options) {
   const Recipe recipe = make_recipe(options);
   check_outputs(options, recipe.shape);
@@ -143,24 +166,13 @@ void grow(const GrowOptions& options) {
   ShapeFile file = read_shape(recipe.shape);
   report.shape(recipe.shape, file);
 
-  Run run = interruptible("before the growth began; nothing was written",
-                          [&] { return Run(bind_plan(planned, std::move(file.mesh), std::move(images)), progress); });
-  restore(run, options.resume);
-  report.warnings(run);
-  report.pattern(run);
-  const Stopwatch growth;
-  grow_to_the_end(run, options, progress, report);
-  report.growth(run, growth.seconds());
-  if (run.world().surface()) report.surface(*run.world().surface());
-  if (!options.checkpoint.empty()) report.file(options.checkpoint);
-
-  progress("colouring", 0);
-  const TriangleMesh coat = dress(run.fields(), recipe.look);
-  write_outputs(options, coat, progress, report);
+  const Grown grown =
+      grown_coat(options, planned, recipe.look, std::move(file.mesh), std::move(images), progress, report);
+  write_outputs(options, grown.coat, progress, report);
   const PictureOptions picture = picture_options(options);
-  write_picture(options.picture, progress, report, [&](const Progress& p) { return render(coat, picture, p); });
+  write_picture(options.picture, progress, report, [&](const Progress& p) { return render(grown.coat, picture, p); });
   write_picture(options.panels, progress, report,
-                [&](const Progress& p) { return four_panels(recipe, *run.program().shape, coat, picture, p); });
+                [&](const Progress& p) { return four_panels(recipe, *grown.shape, grown.coat, picture, p); });
   report.end(total.seconds());
 }
 

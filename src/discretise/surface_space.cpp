@@ -24,9 +24,11 @@ SampledMass SurfaceSpace::sampled(SampleRule rule) const {
   if (rule == SampleRule::quadrature) {
     made.sampling = std::make_shared<const Sampling>(quadrature_sampling(d, control_));
   } else {
+    SparseMatrix transposed = earlier_ ? earlier_->transposed : transpose(d.values);
     made.sampling = std::make_shared<const Sampling>(
-        fresh ? vertex_sampling(d, control_, mass, connectivity_->transposed_values, assembled_->area)
+        fresh ? vertex_sampling(d, control_, mass, std::move(transposed), assembled_->area)
               : vertex_sampling(d, control_, mass));
+    earlier_.reset();
     mass = sampled_mass(*made.sampling, made.sampling->weight, connectivity_->assembler.pattern());
   }
   made.mass = std::make_shared<const SparseMatrix>(std::move(mass));
@@ -105,7 +107,10 @@ std::vector<char> SurfaceSpace::interior(std::vector<char> nodes) const {
 }
 
 std::shared_ptr<const Space> SurfaceSpace::moved(std::vector<Point> control) const {
-  return std::make_shared<const SurfaceSpace>(connectivity_, std::move(control));
+  auto space = std::make_shared<SurfaceSpace>(connectivity_, std::move(control));
+  const std::lock_guard lock(making_);
+  space->earlier_ = at_vertices_.sampling ? at_vertices_.sampling : earlier_;
+  return space;
 }
 
 std::shared_ptr<const SurfaceSpace> surface_space(Discretisation discretisation, std::vector<Point> control,

@@ -15,14 +15,9 @@ class SurfaceSpace final : public Space {
   struct Connectivity {
     Discretisation discretisation;
     Assembler assembler;
-    SparseMatrix transposed_values;
     int reach;  ///< rings of triangles around a vertex that its basis function covers
 
-    Connectivity(Discretisation d, int rings)
-        : discretisation(std::move(d)),
-          assembler(discretisation),
-          transposed_values(transpose(discretisation.values)),
-          reach(rings) {}
+    Connectivity(Discretisation d, int rings) : discretisation(std::move(d)), assembler(discretisation), reach(rings) {}
   };
 
   SurfaceSpace(std::shared_ptr<const Connectivity> connectivity, std::vector<Point> control);
@@ -55,6 +50,7 @@ class SurfaceSpace final : public Space {
   mutable SharedMatrix stiffness_;
   mutable std::optional<AssembledMatrices> assembled_;  ///< until the samples are made of it
   mutable SampledMass at_vertices_, at_quadrature_;
+  mutable std::shared_ptr<const Sampling> earlier_;  ///< at the vertices, of another place, which shares its matrices
 };
 
 std::shared_ptr<const SurfaceSpace> surface_space(Discretisation discretisation, std::vector<Point> control, int reach);

@@ -1,6 +1,7 @@
 #include "look/dress.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pelage {
 
@@ -21,13 +22,14 @@ std::string attribute_name(std::string field) {
 
 }  // namespace
 
-TriangleMesh dress(const Tessellation& t, const Paint& paint, const std::vector<char>& uniform) {
-  TriangleMesh mesh{t.samples.position, t.triangles, {}};
+TriangleMesh dress(Tessellation t, const Paint& paint, const std::vector<char>& uniform) {
+  std::vector<double> color = pelage::paint(t.samples, make_palette(paint, t.samples, uniform));
+  TriangleMesh mesh{std::move(t.samples.position), std::move(t.triangles), {}};
   mesh.set({"normal", 3, Domain::vertex, flattened(t.samples.normal)});
-  mesh.set({"color", 3, Domain::vertex, pelage::paint(t.samples, make_palette(paint, t.samples, uniform))});
+  mesh.set({"color", 3, Domain::vertex, std::move(color)});
   for (std::size_t i = 0; i < t.samples.fields.size(); ++i)
-    mesh.set({attribute_name(paint.species[i]), 1, Domain::vertex, t.samples.fields[i]});
-  for (const Attribute& a : t.attributes) mesh.set(a);
+    mesh.set({attribute_name(paint.species[i]), 1, Domain::vertex, std::move(t.samples.fields[i])});
+  for (Attribute& a : t.attributes) mesh.set(std::move(a));
   return mesh;
 }
 

@@ -7,7 +7,7 @@ namespace pelage {
 
 /// The tessellation with "normal" (unit), "color" (linear light), one attribute per species, and the vertex and corner
 /// attributes of the shape. `uniform` as in CoatFields.
-TriangleMesh dress(const Tessellation& tessellation, const Paint& paint, const std::vector<char>& uniform);
+TriangleMesh dress(Tessellation tessellation, const Paint& paint, const std::vector<char>& uniform);
 
 /// All at once. Error(Fault::usage) for an unknown species or ramp, faults in layers, or a detail that needs too many
 /// triangles.

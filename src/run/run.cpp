@@ -68,7 +68,7 @@ double magnitude(const Vector& u) { return u.size() > 0 ? std::max(std::abs(mini
 
 /// A stage in progress.
 struct Run::Stage {
-  std::vector<Point> began_at;  ///< the vertices of the shape
+  std::vector<Point> began_at;  ///< the vertices of the shape, if it moves
   std::shared_ptr<const Material> material;
   StageSystem equations;
   std::unique_ptr<Stepper> stepper;
