@@ -116,7 +116,7 @@ std::unique_ptr<Run::Stage> Run::begin(std::size_t index, const World& world,
   state.now = equations.initial();
   std::vector<double> first;
   for (const Vector& u : state.now) first.push_back(magnitude(u));
-  auto stage = std::make_unique<Stage>(Stage{world.points(),
+  auto stage = std::make_unique<Stage>(Stage{world.surface() ? world.points() : std::vector<Point>{},
                                              std::move(material),
                                              std::move(equations),
                                              p.stepper->make(),
