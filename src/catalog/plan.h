@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "catalog/components.h"
-#include "fair/fair.h"
 #include "look/palette.h"
+#include "pelage/fair.h"
 #include "pelage/recipe.h"
 #include "react/model.h"
 #include "react/place_formula.h"
@@ -14,8 +14,8 @@
 namespace pelage {
 
 struct PlannedStage {
-  Stage asked;  ///< what the recipe says
-  Model model;  ///< with what the stage changes in it
+  Stage asked;            ///< what the recipe says
+  Model model;            ///< with what the stage changes in it
   double wavelength = 0;  ///< of the model with its numbers, before formulas take the place of any [model length]
   const StepperKind* stepper = nullptr;
   std::optional<PlaceFormula> size_map;  ///< where a mesh alone tells it
