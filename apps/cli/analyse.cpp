@@ -193,7 +193,7 @@ Json state_json(const Analysis& a, std::size_t i) {
           {"band", s.band_min ? Json{json_number(*s.band_min), json_number(*s.band_max)} : Json(nullptr)}};
 }
 
-Json to_json(const Analysis& a, const std::string& name) {
+Json to_json(const Analysis& a, const std::string& name, const std::vector<ParameterSource>& in_use) {
   Json states = Json::array(), conditions = Json::array(), thresholds = Json::array(), steps = Json::object();
   for (std::size_t i = 0; i < a.states.size(); ++i) states.push_back(state_json(a, i));
   for (const Condition& c : a.conditions) conditions.push_back({{"text", c.text}, {"holds", c.holds}});
@@ -202,7 +202,7 @@ Json to_json(const Analysis& a, const std::string& name) {
         {{"species", a.species[t.species]}, {"diffusion", t.diffusion}, {"grows", t.grows_above ? "above" : "below"}});
   for (const StepLimit& limit : a.largest_steps) steps[limit.stepper] = json_number(limit.step);
   Json parameters = Json::object();
-  for (const auto& [parameter, value] : a.parameters) parameters[parameter] = json_number(value);
+  for (const ParameterSource& p : in_use) parameters[p.name] = json_number(p.value);
   return {{"model", name},
           {"parameters", parameters},
           {"regime", a.verdict},
@@ -222,11 +222,12 @@ void write_plot(const Analysis& a, const std::string& title, const std::string& 
 
 void analyse_command(const AnalyseOptions& options) {
   if (!options.plot.empty()) check_picture_path(options.plot);
-  const Analysis a = analysis_of(load_model_with(options.model, options.settings));
+  const Model model = load_model_with(options.model, options.settings);
+  const Analysis a = analysis_of(model);
   const std::string title = title_of(options.model, options.settings);
   if (!options.plot.empty()) write_plot(a, title, options.plot);
   if (options.json)
-    print_json(to_json(a, options.model));
+    print_json(to_json(a, options.model, model.parameters()));
   else
     print_analysis(a, title);
 }

@@ -95,8 +95,9 @@ Counts count(const DirectionField& field) {
 TriangleMesh with_field(TriangleMesh mesh, const Connection& c, const DirectionField& field) {
   Attribute normal{"normal", 3, Domain::vertex, {}};
   for (const Point& n : c.normal) normal.values.insert(normal.values.end(), n.begin(), n.end());
+  mesh = with_directions(std::move(mesh), field.direction);
   if (!mesh.find("normal")) mesh.set(std::move(normal));
-  return with_directions(std::move(mesh), field.direction);
+  return mesh;
 }
 
 void draw(const FieldCommand& o, const TriangleMesh& mesh, const Connection& c, const DirectionField& field,
