@@ -4,7 +4,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "fair/fair.h"
+#include "pelage/fair.h"
 #include "shape/generators.h"
 
 namespace pelage {

@@ -9,10 +9,9 @@
 
 #include "base/parallel.h"
 #include "catalog/bind.h"
-#include "io/read_shape.h"
-#include "io/write_mesh.h"
 #include "look/dress.h"
-#include "render/picture.h"
+#include "pelage/io.h"
+#include "pelage/render.h"
 #include "run/run.h"
 #include "verify/problem.h"
 #include "shape/generators.h"
@@ -42,7 +41,7 @@ void read_and_check(benchmark::State& state, const char* extension) {
   const ThreadLimit limit(threads(state));
   const std::string path =
       (std::filesystem::temp_directory_path() / ("pelage_bench" + std::string(extension))).string();
-  write_mesh(sphere(state.range(0)), path);
+  save(sphere(state.range(0)), path);
   for (auto _ : state) benchmark::DoNotOptimize(read_shape(path));
   std::filesystem::remove(path);
 }

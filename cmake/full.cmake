@@ -25,10 +25,10 @@ pelage_library(pelage_look look)  # colours, plots, lettering
 target_include_directories(pelage_look SYSTEM PRIVATE ${STB_INCLUDE_DIR})
 target_link_libraries(pelage_look PUBLIC pelage_core)
 
-pelage_library(pelage catalog verify)  # from names to components; the interface of include/pelage/pelage.h
+pelage_library(pelage catalog verify)  # from names to components; the interface of include/pelage
 target_link_libraries(pelage PUBLIC pelage_look pelage_io)
 
-pelage_library(pelage_render render)  # pictures of surfaces; for the command line, not installed
+pelage_library(pelage_render render)  # pictures of surfaces
 target_link_libraries(pelage_render PUBLIC pelage_core PRIVATE embree)
 
 # models/*.toml and recipes/*.toml are compiled in, so that the program needs no data directory.
@@ -69,6 +69,7 @@ endif()
 if(PELAGE_TESTS)
   enable_testing()
   add_subdirectory(tests)
+  add_subdirectory(examples)
 endif()
 if(PELAGE_BENCHMARKS)
   add_subdirectory(bench)

@@ -10,6 +10,10 @@ if(TARGET pelage)
 endif()
 install(TARGETS ${libraries} EXPORT pelageTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT pelageTargets NAMESPACE pelage:: DESTINATION ${package_dir})
+if(TARGET pelage_render)  # by itself, so that others need no Embree
+  install(TARGETS pelage_render EXPORT pelageRenderTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT pelageRenderTargets NAMESPACE pelage:: DESTINATION ${package_dir})
+endif()
 
 configure_package_config_file(cmake/pelageConfig.cmake.in ${PROJECT_BINARY_DIR}/pelageConfig.cmake
   INSTALL_DESTINATION ${package_dir})

@@ -5,17 +5,15 @@
 #include <memory>
 #include <numbers>
 
+#include "catalog/analysis.h"
 #include "command.h"
 #include "io/png_writer.h"
 #include "look/dispersion_plot.h"
+#include "pelage/io.h"
 #include "react/turing_conditions.h"
-#include "react/wavelength.h"
-#include "run/resolution.h"
 #include "settings.h"
 #include "table.h"
 #include "text.h"
-#include "time/step_limit.h"
-#include "time/stepper.h"
 
 namespace pelage {
 
@@ -26,40 +24,6 @@ struct AnalyseOptions {
   std::vector<std::string> settings;
   bool json = false;
 };
-
-struct StepLimit {
-  std::string stepper;
-  double step = 0;
-};
-
-/// Everything that is printed.
-struct Analysis {
-  Model model;
-  std::vector<std::string> species;
-  Stability stability;
-  std::vector<Stability> states;  ///< the same about every steady state
-  std::vector<Condition> conditions;
-  std::vector<DiffusionThreshold> thresholds;
-  std::optional<double> wavelength;  ///< that --size stretches
-  std::vector<StepLimit> limits;     ///< none without a wavelength
-};
-
-Analysis make_analysis(Model model) {
-  Analysis a{std::move(model), {}, {}, {}, {}, {}, {}, {}};
-  for (std::size_t i = 0; i < a.model.species_count(); ++i) a.species.push_back(a.model.species_name(i));
-  a.stability = analyse(a.model);
-  for (const std::vector<double>& state : a.stability.steady_states) a.states.push_back(analyse_at(a.model, state));
-  a.conditions = turing_conditions(a.stability, a.species);
-  a.thresholds = diffusion_thresholds(a.stability);
-  a.wavelength = known_wavelength(a.model);
-  if (!a.wavelength || a.states.empty()) return a;
-  const double resolution = a.model.source().suggestions.resolution_or_default();
-  const double k2 = largest_k2_of_coarsest_mesh(*a.wavelength, resolution);
-  for (const StepperKind* stepper : stepper_kinds())
-    if (stepper->couples || a.model.coupled().empty())
-      a.limits.push_back({std::string(stepper->name), largest_stable_step(a.model, *stepper, k2)});
-  return a;
-}
 
 double fastest_wave_number(const Stability& s) { return 2 * std::numbers::pi / *s.wavelength; }
 
@@ -167,34 +131,34 @@ void print_waves(const Analysis& a) {
     rows.push_back({"fastest wavelength", "none: growth has no maximum at a finite wavelength"});
   }
   if (s.band_min) rows.push_back({"unstable band", band_text(s)});
-  if (states_wavelength(a.model.source()))
-    rows.push_back({"spacing of patterns", a.wavelength ? number(*a.wavelength) + " (measured on finished patterns)"
-                                                        : "unknown with these parameters"});
+  if (a.spacing_stated)
+    rows.push_back({"spacing of patterns", a.spacing ? number(*a.spacing) + " (measured on finished patterns)"
+                                                     : "unknown with these parameters"});
   std::fputs(table(rows, 2).c_str(), stdout);
 }
 
 void print_conditions(const Analysis& a) {
   std::puts("\nConditions for a Turing pattern");
   for (const Condition& c : a.conditions) std::printf("  %-4s %s\n", c.holds ? "yes" : "no", c.text.c_str());
-  for (const std::string& line : describe(a.thresholds, a.stability, a.species)) std::printf("  %s\n", line.c_str());
+  for (const std::string& line : a.thresholds_in_words) std::printf("  %s\n", line.c_str());
 }
 
 void print_limits(const Analysis& a) {
-  if (a.limits.empty()) {
+  if (a.largest_steps.empty()) {
     std::puts("\nLargest stable steps: unknown, since no wavelength sets the mesh");
     return;
   }
-  std::printf("\nLargest stable steps, for %s control vertices per wavelength of %s\n",
-              number(a.model.source().suggestions.resolution_or_default()).c_str(), number(*a.wavelength).c_str());
+  std::printf("\nLargest stable steps, for %s control vertices per wavelength of %s\n", number(a.resolution).c_str(),
+              number(*a.spacing).c_str());
   std::vector<std::vector<std::string>> rows;
-  for (const StepLimit& limit : a.limits)
+  for (const StepLimit& limit : a.largest_steps)
     rows.push_back({limit.stepper, std::isfinite(limit.step) ? number(limit.step) : "any"});
   std::fputs(table(rows, 2).c_str(), stdout);
 }
 
 void print_analysis(const Analysis& a, const std::string& title) {
-  std::printf("%s: %s\n", title.c_str(), a.model.source().title.c_str());
-  std::fputs(wrapped(describe(regime_of(a.stability)), 2).c_str(), stdout);
+  std::printf("%s: %s\n", title.c_str(), a.title.c_str());
+  std::fputs(wrapped(a.verdict, 2).c_str(), stdout);
   if (a.states.empty()) return;
   print_states(a);
   print_jacobian(a);
@@ -229,23 +193,23 @@ Json state_json(const Analysis& a, std::size_t i) {
           {"band", s.band_min ? Json{json_number(*s.band_min), json_number(*s.band_max)} : Json(nullptr)}};
 }
 
-Json to_json(const Analysis& a, const std::string& name) {
+Json to_json(const Analysis& a, const std::string& name, const std::vector<ParameterSource>& in_use) {
   Json states = Json::array(), conditions = Json::array(), thresholds = Json::array(), steps = Json::object();
   for (std::size_t i = 0; i < a.states.size(); ++i) states.push_back(state_json(a, i));
   for (const Condition& c : a.conditions) conditions.push_back({{"text", c.text}, {"holds", c.holds}});
   for (const DiffusionThreshold& t : a.thresholds)
     thresholds.push_back(
         {{"species", a.species[t.species]}, {"diffusion", t.diffusion}, {"grows", t.grows_above ? "above" : "below"}});
-  for (const StepLimit& limit : a.limits) steps[limit.stepper] = json_number(limit.step);
+  for (const StepLimit& limit : a.largest_steps) steps[limit.stepper] = json_number(limit.step);
   Json parameters = Json::object();
-  for (const ParameterSource& p : a.model.parameters()) parameters[p.name] = json_number(p.value);
+  for (const ParameterSource& p : in_use) parameters[p.name] = json_number(p.value);
   return {{"model", name},
           {"parameters", parameters},
-          {"regime", describe(regime_of(a.stability))},
+          {"regime", a.verdict},
           {"steady_states", states},
           {"conditions", conditions},
           {"thresholds", thresholds},
-          {"wavelength", json_number(a.wavelength)},
+          {"wavelength", json_number(a.spacing)},
           {"largest_steps", steps}};
 }
 
@@ -253,16 +217,17 @@ void write_plot(const Analysis& a, const std::string& title, const std::string& 
   if (a.states.empty())
     throw Error(Fault::usage,
                 "no steady state was found, hence there is no dispersion relation to plot; leave out --plot");
-  write_png(draw(dispersion_plot(a.stability, title, describe(regime_of(a.stability)))), path);
+  write_png(draw(dispersion_plot(a.stability, title, a.verdict)), path);
 }
 
 void analyse_command(const AnalyseOptions& options) {
   if (!options.plot.empty()) check_picture_path(options.plot);
-  const Analysis a = make_analysis(load_model_with(options.model, options.settings));
+  const Model model = load_model_with(options.model, options.settings);
+  const Analysis a = analysis_of(model);
   const std::string title = title_of(options.model, options.settings);
   if (!options.plot.empty()) write_plot(a, title, options.plot);
   if (options.json)
-    print_json(to_json(a, options.model));
+    print_json(to_json(a, options.model, model.parameters()));
   else
     print_analysis(a, title);
 }

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "command.h"
-#include "io/read_shape.h"
+#include "pelage/io.h"
 #include "shape/describe.h"
 #include "text.h"
 

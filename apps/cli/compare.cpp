@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "command.h"
-#include "io/read_shape.h"
+#include "pelage/io.h"
 #include "text.h"
 
 namespace pelage {

@@ -1,6 +1,6 @@
 // pelage fair: takes the noise off a mesh.
 
-#include "fair/fair.h"
+#include "pelage/fair.h"
 
 #include <cstdio>
 #include <memory>
@@ -8,8 +8,8 @@
 #include "command.h"
 #include "fair/attribute.h"
 #include "interrupt.h"
-#include "io/read_shape.h"
 #include "io/write_mesh.h"
+#include "pelage/io.h"
 #include "progress_bar.h"
 #include "text.h"
 
@@ -99,7 +99,7 @@ Faired faired(const FairCommand& command, const TriangleMesh& mesh, const Progre
 template <class Result>
 void finish(const FairCommand& command, const Result& result, ProgressBar& bar) {
   bar.clear();
-  for (const std::string& path : command.outputs) write_mesh(result.mesh, path);
+  for (const std::string& path : command.outputs) save(result.mesh, path);
   if (command.json) return print_json(to_json(command, result.report));
   if (command.quiet) return;
   print_report(command, result.report);

@@ -1,5 +1,7 @@
 // pelage field: a direction field on a surface.
 
+#include "pelage/field.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -13,12 +15,10 @@
 #include "direction/hatching.h"
 #include "interrupt.h"
 #include "io/png_writer.h"
-#include "io/read_shape.h"
 #include "io/write_mesh.h"
-#include "pelage/error.h"
+#include "pelage/io.h"
+#include "pelage/render.h"
 #include "progress_bar.h"
-#include "render/picture.h"
-#include "run/directions.h"
 #include "run/program.h"
 #include "text.h"
 #include "usage.h"
@@ -93,11 +93,9 @@ Counts count(const DirectionField& field) {
 }
 
 TriangleMesh with_field(TriangleMesh mesh, const Connection& c, const DirectionField& field) {
-  Attribute direction{direction_attribute, 3, Domain::vertex, {}};
   Attribute normal{"normal", 3, Domain::vertex, {}};
-  for (const Point& d : field.direction) direction.values.insert(direction.values.end(), d.begin(), d.end());
   for (const Point& n : c.normal) normal.values.insert(normal.values.end(), n.begin(), n.end());
-  mesh.set(std::move(direction));
+  mesh = with_directions(std::move(mesh), field.direction);
   if (!mesh.find("normal")) mesh.set(std::move(normal));
   return mesh;
 }
@@ -145,7 +143,7 @@ void run_field(const FieldCommand& o) {
   const Connection c = make_connection(make_topology(mesh.points.size(), mesh.triangles), mesh.points);
   const double diagonal = box_of(mesh.points).diagonal();
   const DirectionField field = direction_field(c, o.n, find_guides(wish_of(o, diagonal), c, mesh.points, diagonal));
-  for (const std::string& path : o.outputs) write_mesh(with_field(mesh, c, field), path);
+  for (const std::string& path : o.outputs) save(with_field(mesh, c, field), path);
   if (!o.picture.empty()) draw(o, mesh, c, field, bar.progress());
   bar.clear();
   report(o, mesh, field);

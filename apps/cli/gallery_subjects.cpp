@@ -4,8 +4,8 @@
 
 #include "catalog/models.h"
 #include "catalog/plan.h"
-#include "catalog/recipes.h"
-#include "io/read_shape.h"
+#include "pelage/grow.h"
+#include "pelage/io.h"
 
 namespace pelage {
 

@@ -13,10 +13,9 @@
 #include "interrupt.h"
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
-#include "io/png_writer.h"
-#include "io/write_mesh.h"
 #include "look/dress.h"
 #include "panels.h"
+#include "pelage/io.h"
 #include "progress_bar.h"
 #include "text.h"
 
@@ -97,7 +96,7 @@ void grow_to_the_end(Run& run, const GrowOptions& options, const Progress& progr
 void write_outputs(const GrowOptions& options, const TriangleMesh& coat, const Progress& progress, GrowReport& report) {
   for (const std::string& path : options.outputs) {
     progress("writing " + path, 0);
-    interruptible("before " + path + " was written", [&] { write_mesh(coat, path); });
+    interruptible("before " + path + " was written", [&] { save(coat, path); });
     report.file(path);
   }
 }

@@ -7,7 +7,7 @@
 
 #include "command.h"
 #include "pelage/recipe.h"
-#include "render/picture.h"
+#include "pelage/render.h"
 
 namespace pelage {
 

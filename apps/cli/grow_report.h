@@ -4,7 +4,7 @@
 #include <string>
 
 #include "command.h"
-#include "io/read_shape.h"
+#include "pelage/io.h"
 #include "progress_bar.h"
 #include "run/run.h"
 

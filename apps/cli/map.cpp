@@ -15,6 +15,7 @@
 #include "look/dress.h"
 #include "look/flat_tile.h"
 #include "look/ramp.h"
+#include "pelage/io.h"
 #include "progress_bar.h"
 #include "run/parameter_map.h"
 #include "settings.h"

@@ -1,10 +1,10 @@
 #include "panels.h"
 
 #include "catalog/bind.h"
-#include "fair/fair.h"
 #include "look/canvas.h"
 #include "look/caption.h"
 #include "look/dress.h"
+#include "pelage/fair.h"
 #include "run/run.h"
 
 namespace pelage {

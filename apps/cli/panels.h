@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "pelage/recipe.h"
+#include "pelage/render.h"
 #include "pelage/triangle_mesh.h"
-#include "render/picture.h"
 
 namespace pelage {
 

@@ -1,12 +1,11 @@
 // pelage recipes: the coats that come with the program.
 
-#include "catalog/recipes.h"
-
 #include <cstdio>
 #include <memory>
 
 #include "base/suggest.h"
 #include "command.h"
+#include "pelage/grow.h"
 #include "table.h"
 
 namespace pelage {

@@ -2,6 +2,7 @@
 // A recipe is data only: what to grow, how large, how to colour it. Names become components in resolve().
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,8 +50,9 @@ struct TextureFile {
 /// One run of a model to its stop. Formulas know the place (x, nx, k1, attribute(NAME), ...), the parameters of the
 /// model, the fields of earlier stages as STAGE.SPECIES, and `points` where it is set. docs/recipes.md.
 struct Stage {
-  Given<std::string> name{"stage1", {}};   ///< as later stages and the look refer to it; default: stage1, stage2, ...
-  Given<std::string> model{"turing", {}};  ///< built-in name, "name:variant", or path of a .toml file
+  Given<std::string> name{"stage1", {}};  ///< as later stages and the look refer to it; default: stage1, stage2, ...
+  Given<std::string> model{"turing",
+                           {}};  ///< built-in name, "name:variant", path of a .toml file, or of Recipe::models
   struct Setting {
     std::string name;
     double value = 0;
@@ -117,11 +119,16 @@ struct Look {
   std::optional<int> detail;  ///< extra splits of every triangle into four, 0 to most_detail; default: as needed
 };
 
+/// Models of your own: the TOML text of each (docs/models.md) by the name that stages give it, "name:variant" for a
+/// variant of it. A name hides the built-in model that is called so.
+using ModelTexts = std::map<std::string, std::string>;
+
 struct Recipe {
   std::string name;
   std::string summary;
   std::string shape;  ///< used when the command names none
   std::vector<TextureFile> textures;
+  ModelTexts models;             ///< beside the built-in ones and files
   std::vector<Stage> stages{1};  ///< at least one
   Motion motion;
   Look look;

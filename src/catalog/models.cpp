@@ -176,4 +176,12 @@ ModelSource load_model(const std::string& name_or_path) {
   return with_variant(model(read_document(name_or_path.substr(0, end))), name_or_path.substr(end + 1));
 }
 
+ModelSource find_model(const std::string& name_or_path, const ModelTexts& texts) {
+  const std::size_t colon = name_or_path.rfind(':');
+  const auto found = texts.find(name_or_path.substr(0, colon));
+  if (found == texts.end()) return load_model(name_or_path);
+  const ModelSource source = parse_model(found->second, found->first);
+  return colon == std::string::npos ? source : with_variant(source, name_or_path.substr(colon + 1));
+}
+
 }  // namespace pelage

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pelage/recipe.h"
 #include "react/model.h"
 
 namespace pelage {
@@ -21,6 +22,9 @@ const std::vector<ModelEntry>& model_list();
 /// for a variant. Error(usage) for an unknown name, Error(input) for a file that cannot be read, Error(usage) with
 /// file, line and column for a fault in it.
 ModelSource load_model(const std::string& name_or_path);
+
+/// The same, but first among the texts, whose faults are located under their names.
+ModelSource find_model(const std::string& name_or_path, const ModelTexts& texts);
 
 /// The source that a text describes; `file` is the name for messages.
 ModelSource parse_model(std::string_view text, const std::string& file);

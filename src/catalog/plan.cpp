@@ -120,14 +120,14 @@ std::optional<PlaceFormula> plan_size_map(const Stage& stage, const Model& model
   return known_from_mesh(formula) ? std::optional(std::move(formula)) : std::nullopt;
 }
 
-PlannedStage plan_stage(const Stage& stage, const Stage& first, const std::vector<PlannedStage>& before,
+PlannedStage plan_stage(const Stage& stage, const Recipe& recipe, const std::vector<PlannedStage>& before,
                         const Components& components) {
   PlannedStage p;
   p.asked = stage;
   p.stepper = &component(stage.stepper, "stepper", components.steppers);
   require_known(stage.inside, "way to treat the inside of a mask", {"frozen", "excluded"});
-  require_same_method(first, stage);
-  const ModelSource source = load_model(stage.model.value);
+  require_same_method(recipe.stages[0], stage);
+  const ModelSource source = find_model(stage.model.value, recipe.models);
   const Model plain = compile(source, numbers_of(stage));  // its own faults are found before those of the stage
   const std::vector<std::string> fields = earlier_fields(before);
   p.model = compile(source, numbers_of(stage), stage_changes(source, stage, fields));
@@ -195,7 +195,7 @@ Plan plan(const Recipe& recipe, const Components& components) {
   p.method_asked = !method.where.file.empty();
   p.textures = recipe.textures;
   for (const Stage& stage : recipe.stages) {
-    p.stages.push_back(plan_stage(stage, recipe.stages[0], p.stages, components));
+    p.stages.push_back(plan_stage(stage, recipe, p.stages, components));
     p.until += p.stages.back().until;
     p.interpolate |= stage.interpolate;
   }

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "catalog/components.h"
-#include "fair/fair.h"
 #include "look/palette.h"
+#include "pelage/fair.h"
 #include "pelage/recipe.h"
 #include "react/model.h"
 #include "react/place_formula.h"

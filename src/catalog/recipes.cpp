@@ -1,7 +1,6 @@
-#include "catalog/recipes.h"
-
 #include "base/suggest.h"
 #include "catalog/embedded.h"
+#include "pelage/grow.h"
 #include "recipe/document.h"
 
 namespace pelage {

@@ -12,6 +12,9 @@
 
 namespace pelage {
 
+/// The attribute of a mesh that holds its directions: 3 components per vertex.
+inline constexpr const char* direction_attribute = "direction";
+
 /// What is wished at a vertex.
 struct Guide {
   Index vertex = 0;

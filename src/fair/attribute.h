@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
+#include "pelage/progress.h"
 #include "pelage/triangle_mesh.h"
 
 namespace pelage {

@@ -1,4 +1,4 @@
-#include "fair/fair.h"
+#include "pelage/fair.h"
 
 #include <algorithm>
 #include <cmath>
@@ -105,6 +105,8 @@ Fairing::Fairing(const TriangleMesh& mesh, const FairOptions& options) : options
 }
 
 Fairing::~Fairing() = default;
+Fairing::Fairing(Fairing&&) noexcept = default;
+Fairing& Fairing::operator=(Fairing&&) noexcept = default;
 
 bool Fairing::done() const { return finished_ || report_.steps >= most_steps_; }
 
@@ -144,13 +146,16 @@ std::vector<Point> Fairing::points() const {
   return points;
 }
 
-const std::vector<Point>& Fairing::state() const { return parts_->state.points; }
+Fairing::State Fairing::state() const { return {parts_->state.points, report_.steps, done()}; }
 
-void Fairing::restore(std::vector<Point> state, int steps, bool done) {
-  parts_->state.points = std::move(state);
-  report_.steps = steps;
-  finished_ = done;
-  if (steps > 0) measure();
+void Fairing::restore(State state) {
+  if (state.points.size() != parts_->from.size())
+    throw Error(Fault::usage, "the state has " + std::to_string(state.points.size()) + " points, the mesh " +
+                                  std::to_string(parts_->from.size()) + " vertices");
+  parts_->state.points = std::move(state.points);
+  report_.steps = state.steps;
+  finished_ = state.done;
+  if (state.steps > 0) measure();
 }
 
 Faired fair(const TriangleMesh& mesh, const FairOptions& options, const Progress& progress) {

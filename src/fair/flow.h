@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "fair/fair.h"
+#include "pelage/fair.h"
 #include "shape/topology.h"
 
 namespace pelage {

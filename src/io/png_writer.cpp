@@ -12,13 +12,13 @@
 #include "base/ascii.h"
 #include "base/srgb.h"
 #include "io/atomic_file.h"
-#include "pelage/error.h"
+#include "pelage/io.h"
 
 namespace pelage {
 
 namespace {
 
-std::vector<std::uint8_t> to_bytes(const Image& image, const std::string& path) {
+std::vector<std::uint8_t> samples_of(const Image& image, const std::string& path) {
   assert(std::ssize(image.rgb) == std::ptrdiff_t{3} * image.width * image.height);
   std::vector<std::uint8_t> bytes(image.rgb.size());
   for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -33,6 +33,21 @@ std::vector<std::uint8_t> to_bytes(const Image& image, const std::string& path) 
 /// one: the last array that it can make holds 1.6e9. In the worst case 8 bits are coded by 9.
 constexpr std::int64_t most_bytes = 1'400'000'000;
 
+/// `path` is for messages.
+std::string encode_png(const Image& image, const std::string& path) {
+  check_picture_size(image.width, image.height, path);
+  const std::vector<std::uint8_t> samples = samples_of(image, path);
+  std::string file;
+  const auto append = [](void* context, void* data, int size) {
+    static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+  };
+  constexpr int channels = 3;
+  if (!stbi_write_png_to_func(append, &file, image.width, image.height, channels, samples.data(),
+                              channels * image.width))
+    throw Error(Fault::output, "the picture could not be compressed", {path});
+  return file;
+}
+
 }  // namespace
 
 void check_picture_size(std::int64_t width, std::int64_t height, const std::string& path) {
@@ -45,18 +60,9 @@ void check_picture_size(std::int64_t width, std::int64_t height, const std::stri
               {path});
 }
 
-void write_png(const Image& image, const std::string& path) {
-  check_picture_size(image.width, image.height, path);
-  const std::vector<std::uint8_t> bytes = to_bytes(image, path);
-  std::string file;
-  const auto append = [](void* context, void* data, int size) {
-    static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
-  };
-  constexpr int channels = 3;
-  if (!stbi_write_png_to_func(append, &file, image.width, image.height, channels, bytes.data(), channels * image.width))
-    throw Error(Fault::output, "the picture could not be compressed", {path});
-  write_file(path, file);
-}
+std::string png_bytes(const Image& image) { return encode_png(image, ""); }
+
+void write_png(const Image& image, const std::string& path) { write_file(path, encode_png(image, path)); }
 
 void check_picture_path(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();

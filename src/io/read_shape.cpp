@@ -1,5 +1,3 @@
-#include "io/read_shape.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <string_view>
@@ -12,6 +10,7 @@
 #include "io/off_reader.h"
 #include "io/ply_reader.h"
 #include "io/stl_reader.h"
+#include "pelage/io.h"
 #include "shape/generators.h"
 #include "shape/repair.h"
 
@@ -58,17 +57,7 @@ Error located(const ShapeFault& fault, const RawShape& raw, const std::string& p
   return Error(Fault::input, fault.what(), {path, line});
 }
 
-}  // namespace
-
-ShapeFile read_shape(const std::string& path) {
-  if (is_builtin_shape(path)) return {builtin_shape(path), {}};
-  const Format& format = format_of(path);
-  RawShape raw;
-  {
-    const std::string bytes = read_file(path);
-    check_content(format, bytes, path);
-    raw = format.read(bytes, path);
-  }
+ShapeFile mended(RawShape raw, const std::string& path) {
   ShapeFile file;
   file.findings = std::move(raw.findings);
   try {
@@ -79,6 +68,34 @@ ShapeFile read_shape(const std::string& path) {
   }
   return file;
 }
+
+}  // namespace
+
+ShapeFile read_shape_bytes(std::string_view bytes, const std::string& name) {
+  const Format& format = format_of(name);
+  check_content(format, bytes, name);
+  return mended(format.read(bytes, name), name);
+}
+
+ShapeFile read_shape(const std::string& path) {
+  if (is_builtin_shape(path)) return {builtin_shape(path), {}};
+  const Format& format = format_of(path);
+  RawShape raw;
+  {
+    const std::string bytes = read_file(path);  // gone before the mesh is mended: the two together are large
+    check_content(format, bytes, path);
+    raw = format.read(bytes, path);
+  }
+  return mended(std::move(raw), path);
+}
+
+ShapeFile check_shape(TriangleMesh mesh) {
+  ShapeFile file;
+  file.mesh = repair(std::move(mesh), file.findings);
+  return file;
+}
+
+TriangleMesh load_shape(const std::string& path) { return read_shape(path).mesh; }
 
 std::vector<std::string> readable_extensions() {
   std::vector<std::string> extensions;

@@ -17,7 +17,7 @@
 #include "io/ply_writer.h"
 #include "io/stl_writer.h"
 #include "io/vtp_writer.h"
-#include "pelage/error.h"
+#include "pelage/io.h"
 
 namespace pelage {
 
@@ -37,21 +37,30 @@ constexpr Writer writers[] = {
     {".vtp", encode_vtp},  //
 };
 
-std::string lower_extension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = to_lower(c);
-  return extension;
+std::string lower(std::string text) {
+  for (char& c : text) c = to_lower(c);
+  return text;
 }
 
-const Writer& find_writer(const std::string& path) {
-  const std::string extension = lower_extension(path);
+std::string extension_of(const std::string& path) { return std::filesystem::path(path).extension().string(); }
+
+const Writer& find_writer(const std::string& extension) {
   for (const Writer& writer : writers)
     if (extension == writer.extension) return writer;
   const std::string what = extension.empty() ? "a mesh file needs an extension that names its format"
                                              : "cannot write meshes as \"" + extension + "\"";
   const std::string hint = did_you_mean(extension, mesh_extensions());
-  throw Error(Fault::usage, what + "; known: " + join_names(mesh_extensions()) + (hint.empty() ? "" : "; " + hint),
-              {path});
+  throw Error(Fault::usage, what + "; known: " + join_names(mesh_extensions()) + (hint.empty() ? "" : "; " + hint));
+}
+
+/// work(), whose errors are about the file.
+template <class Work>
+auto about(const std::string& path, Work&& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    throw Error(error.fault(), error.what(), {path});
+  }
 }
 
 bool fits_float(double x) { return std::abs(x) <= std::numeric_limits<float>::max(); }  // false for NaN
@@ -87,20 +96,18 @@ std::vector<std::string> mesh_extensions() {
 }
 
 void check_mesh_path(const std::string& path) {
-  find_writer(path);
+  about(path, [&] { find_writer(lower(extension_of(path))); });
   check_folder(path);
 }
 
-void write_mesh(const TriangleMesh& mesh, const std::string& path) {
-  const Writer& writer = find_writer(path);
-  std::string bytes;
-  try {
-    require_finite(mesh);
-    bytes = writer.encode(mesh);
-  } catch (const Error& error) {
-    throw Error(error.fault(), error.what(), {path});
-  }
-  write_file(path, bytes);
+std::string mesh_bytes(const TriangleMesh& mesh, const std::string& extension) {
+  const Writer& writer = find_writer(lower(extension));
+  require_finite(mesh);
+  return writer.encode(mesh);
+}
+
+void save(const TriangleMesh& mesh, const std::string& path) {
+  write_file(path, about(path, [&] { return mesh_bytes(mesh, extension_of(path)); }));
 }
 
 }  // namespace pelage

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "look/ramp.h"
-#include "shape/image.h"
+#include "pelage/image.h"
 
 namespace pelage {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "shape/image.h"
+#include "pelage/image.h"
 
 namespace pelage {
 

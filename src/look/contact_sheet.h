@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "shape/image.h"
+#include "pelage/image.h"
 
 namespace pelage {
 

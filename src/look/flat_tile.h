@@ -1,8 +1,8 @@
 #pragma once
 // A flat mesh seen from above, as a small picture.
 
+#include "pelage/image.h"
 #include "pelage/triangle_mesh.h"
-#include "shape/image.h"
 
 namespace pelage {
 

@@ -1,13 +1,12 @@
-#include "render/picture.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "base/parallel.h"
-#include "pelage/error.h"
+#include "pelage/render.h"
 #include "render/camera.h"
 #include "render/ray_scene.h"
 #include "render/sampler.h"
@@ -51,12 +50,24 @@ Eigen::Matrix3d upright_rotation(UpAxis up) {
   return rotation;
 }
 
+/// A mesh that stands on the ground, for rays to be shot at.
+struct StandingMesh {
+  StandingMesh(const TriangleMesh& mesh, UpAxis up_axis)
+      : up(up_axis),
+        points(stand_upright(mesh, upright_rotation(up))),
+        scene(mesh, points, upright_rotation(up).cast<float>()) {}
+
+  UpAxis up;
+  std::vector<Vector3f> points;
+  RayScene scene;
+};
+
 class Painter {
  public:
-  Painter(const TriangleMesh& mesh, const std::vector<Vector3f>& points, const PictureOptions& options)
+  Painter(const StandingMesh& model, const PictureOptions& options)
       : options_(options),
-        scene_(mesh, points, upright_rotation(options.up).cast<float>()),
-        camera_(frame_points(points, options.azimuth, options.elevation, aspect(options), margin)),
+        scene_(model.scene),
+        camera_(frame_points(model.points, options.azimuth, options.elevation, aspect(options), margin)),
         studio_(camera_.back, Eigen::Map<const Eigen::Vector3d>(options.background.data()).cast<float>()) {}
 
   Vector3f pixel(int x, int y) const;
@@ -72,7 +83,7 @@ class Painter {
   Vector3f bounced(const Vector3f& origin, const Vector3f& normal, const Vector3f& color, const Sample& sample) const;
 
   PictureOptions options_;
-  RayScene scene_;
+  const RayScene& scene_;
   Camera camera_;
   Studio studio_;
 };
@@ -217,11 +228,8 @@ void check(const PictureOptions& options) {
                 "the camera's elevation must lie between -89 and 89 degrees, its azimuth within ten turns");
 }
 
-}  // namespace
-
-Image render(const TriangleMesh& mesh, const PictureOptions& options, const Progress& progress) {
-  check(options);
-  const Painter painter(mesh, stand_upright(mesh, upright_rotation(options.up)), options);
+Image picture(const StandingMesh& model, const PictureOptions& options, const Progress& progress) {
+  const Painter painter(model, options);
   Image image{options.width, options.height, std::vector<float>(std::size_t{3} * options.width * options.height)};
   constexpr int band = 32;              // rows between two reports
   constexpr std::size_t portion = 256;  // pixels that a thread takes at a time
@@ -241,6 +249,31 @@ Image render(const TriangleMesh& mesh, const PictureOptions& options, const Prog
         portion);
   }
   return image;
+}
+
+}  // namespace
+
+struct PictureScene::Parts {
+  explicit Parts(TriangleMesh given) : mesh(std::move(given)) {}
+  TriangleMesh mesh;
+  std::optional<StandingMesh> model;  ///< for the last axis that pointed up
+};
+
+PictureScene::PictureScene(TriangleMesh mesh) : parts_(std::make_unique<Parts>(std::move(mesh))) {}
+PictureScene::~PictureScene() = default;
+PictureScene::PictureScene(PictureScene&&) noexcept = default;
+PictureScene& PictureScene::operator=(PictureScene&&) noexcept = default;
+
+Image PictureScene::render(const PictureOptions& options, const Progress& progress) {
+  check(options);
+  std::optional<StandingMesh>& model = parts_->model;
+  if (!model || model->up != options.up) model.emplace(parts_->mesh, options.up);
+  return picture(*model, options, progress);
+}
+
+Image render(const TriangleMesh& mesh, const PictureOptions& options, const Progress& progress) {
+  check(options);
+  return picture(StandingMesh(mesh, options.up), options, progress);
 }
 
 }  // namespace pelage

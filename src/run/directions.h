@@ -9,9 +9,6 @@
 
 namespace pelage {
 
-/// Name of the vertex attribute (3 components) that gives a mesh its directions.
-inline constexpr const char* direction_attribute = "direction";
-
 /// Lines d d' at the vertices of the finest level, linear over the triangles of `shape`, which is level 0: those of the
 /// wish, or else of its attribute "direction", or else of its smoothest field of lines. Error(Fault::input) for an
 /// attribute of another size.

@@ -33,12 +33,12 @@ std::vector<Point> MovingSurface::points() const {
 }
 
 MovingSurface::State MovingSurface::state() const {
-  if (!fairing_) return {{}, 0, false, scale_};
-  return {fairing_->state(), fairing_->report().steps, fairing_->done(), scale_};
+  if (!fairing_) return {{}, scale_};
+  return {fairing_->state(), scale_};
 }
 
 void MovingSurface::restore(State state) {
-  if (fairing_) fairing_->restore(std::move(state.faired), state.fair_steps, state.fair_done);
+  if (fairing_) fairing_->restore(std::move(state.fairing));
   scale_ = state.scale;
 }
 

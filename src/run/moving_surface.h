@@ -23,13 +23,11 @@ class MovingSurface {
 
   /// All that changes, for checkpoints.
   struct State {
-    std::vector<Point> faired;
-    int fair_steps = 0;
-    bool fair_done = false;
+    Fairing::State fairing;  ///< empty when it is not faired
     double scale = 1;
   };
   State state() const;
-  /// As many points as the shape has vertices, or none when it is not faired.
+  /// One of the same shape and motion.
   void restore(State state);
 
  private:

@@ -4,7 +4,7 @@
 // The square has no flux through its sides. Mirrored at them it is a quarter of a flat torus of twice the side, so that
 // cells see neither curvature nor a boundary that a pattern would notice.
 
-#include "base/progress.h"
+#include "pelage/progress.h"
 #include "react/stability.h"
 #include "run/run.h"
 

@@ -7,7 +7,7 @@
 
 #include "direction/guides.h"
 #include "discretise/method.h"
-#include "fair/fair.h"
+#include "pelage/fair.h"
 #include "pelage/triangle_mesh.h"
 #include "react/model.h"
 #include "shape/texture.h"

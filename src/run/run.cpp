@@ -408,9 +408,9 @@ std::string Run::checkpoint() const {
   const MovingSurface::State surface = world_.surface()->state();
   w.fields({flattened(now_->began_at)});
   w.number(surface.scale);
-  w.number(std::int64_t{surface.fair_steps});
-  w.number(std::uint64_t{surface.fair_done});
-  w.fields({flattened(surface.faired)});
+  w.number(std::int64_t{surface.fairing.steps});
+  w.number(std::uint64_t{surface.fairing.done});
+  w.fields({flattened(surface.fairing.points)});
   return out;
 }
 
@@ -454,8 +454,8 @@ Run::Snapshot Run::read_snapshot(const std::string& bytes) const {
   if (world_.surface()) {
     s.began_at = r.fields();
     s.surface.scale = r.number();
-    s.surface.fair_steps = static_cast<int>(r.integer());
-    s.surface.fair_done = r.count() != 0;
+    s.surface.fairing.steps = static_cast<int>(r.integer());
+    s.surface.fairing.done = r.count() != 0;
     s.faired = r.fields();
   }
   if (!r.at_end()) throw Error(Fault::input, foreign);
@@ -475,7 +475,7 @@ bool Run::fits(const Snapshot& s) const {
     fits = fits && has_sizes(s.state.past_rates, species, space().sampled(p.stepper->samples).sampling->count());
   if (!world_.surface()) return fits;
   return fits && s.surface.scale > 0 && has_sizes(s.began_at, 1, 3 * std::ssize(program_->shape->points)) &&
-         has_sizes(s.faired, 1, 3 * std::ssize(world_.surface()->state().faired));
+         has_sizes(s.faired, 1, 3 * std::ssize(world_.surface()->state().fairing.points));
 }
 
 /// All is made beside what there is, and put in its place when it is complete.
@@ -489,7 +489,7 @@ void Run::restore(const std::string& bytes) {
   stage->state = std::move(s.state);
   if (world.surface()) {
     stage->began_at = as_points(s.began_at[0]);
-    s.surface.faired = as_points(s.faired[0]);
+    s.surface.fairing.points = as_points(s.faired[0]);
     world.restore(std::move(s.surface));
     stage->equations = StageSystem(program_->stages[s.stage], world.shared_space(), stage->material);
   }

@@ -5,33 +5,12 @@
 #include <string>
 
 #include "discretise/coat_fields.h"
+#include "pelage/run_summary.h"
 #include "run/stage_system.h"
 #include "run/world.h"
 #include "time/stepper.h"
 
 namespace pelage {
-
-/// How a run stands.
-enum class RunStatus {
-  running,
-  time_reached,
-  steps_reached,
-  stationary,
-  failed  ///< the fields blew up or a solve did not converge; see RunSummary::message
-};
-
-/// What has happened so far in a stage.
-struct RunSummary {
-  RunStatus status = RunStatus::running;
-  std::string message;  ///< of a failure: what, where, and what to do
-  double time = 0;      ///< model time
-  std::int64_t steps = 0;
-  double step = 0;                  ///< size of the next step
-  double change = 0;                ///< of the pattern per unit of time, relative to its amplitude
-  std::int64_t iterations = 0;      ///< of the linear solver since the start or resumption
-  std::int64_t rejected = 0;        ///< steps repeated with a smaller size
-  double minimum = 0, maximum = 0;  ///< of the coefficients of all species
-};
 
 class Run {
  public:

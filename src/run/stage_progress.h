@@ -1,8 +1,8 @@
 #pragma once
 // Progress of the work before a stage can begin.
 
-#include "base/progress.h"
 #include "pelage/error.h"
+#include "pelage/progress.h"
 
 namespace pelage {
 

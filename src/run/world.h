@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "base/progress.h"
+#include "pelage/progress.h"
 #include "run/moving_surface.h"
 #include "run/program.h"
 

@@ -1,5 +1,3 @@
-#include "catalog/recipes.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include "discretise/quadrature.h"
 #include "discretise/surface_space.h"
 #include "look/dress.h"
+#include "pelage/grow.h"
 #include "run/directions.h"
 #include "run/run.h"
 #include "shape/generators.h"

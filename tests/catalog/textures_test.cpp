@@ -8,9 +8,9 @@
 
 #include "base/srgb.h"
 #include "catalog/bind.h"
-#include "io/png_writer.h"
 #include "io/texture_reader.h"
 #include "look/dress.h"
+#include "pelage/io.h"
 #include "run/run.h"
 
 namespace pelage {

@@ -10,8 +10,8 @@
 
 #include "direction/guides.h"
 #include "direction/hatching.h"
-#include "io/read_shape.h"
 #include "pelage/error.h"
+#include "pelage/io.h"
 #include "shape/describe.h"
 #include "shape/generators.h"
 #include "shape/vectors.h"

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "fair/fair.h"
 #include "fair/noisy.h"
+#include "pelage/fair.h"
 
 namespace pelage {
 namespace {

@@ -1,4 +1,4 @@
-#include "fair/fair.h"
+#include "pelage/fair.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "fair/compare.h"
 #include "fair/noisy.h"
-#include "io/read_shape.h"
+#include "pelage/io.h"
 
 namespace pelage {
 namespace {

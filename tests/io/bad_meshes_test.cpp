@@ -7,8 +7,8 @@
 #include <map>
 #include <sstream>
 
-#include "io/read_shape.h"
 #include "pelage/error.h"
+#include "pelage/io.h"
 #include "shape/sample_meshes.h"
 
 namespace pelage {

@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "io/glb_writer.h"
-#include "io/read_shape.h"
 #include "io/read_text.h"
+#include "pelage/io.h"
 #include "shape/describe.h"
 #include "shape/repair.h"
 #include "shape/sample_meshes.h"

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "pelage/io.h"
+
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #pragma GCC diagnostic push

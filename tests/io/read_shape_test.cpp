@@ -1,5 +1,3 @@
-#include "io/read_shape.h"
-
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -7,7 +5,7 @@
 #include <fstream>
 
 #include "io/read_text.h"
-#include "io/write_mesh.h"
+#include "pelage/io.h"
 #include "shape/sample_meshes.h"
 
 namespace pelage {
@@ -36,7 +34,7 @@ TEST_F(ReadShape, WhatIsWrittenIsRead) {
     for (double& x : p) x = static_cast<float>(x);  // as STL and GLB store them
   for (const char* extension : {".obj", ".ply", ".off", ".stl", ".glb"}) {
     const std::string path = folder_ + "torus" + extension;
-    write_mesh(mesh, path);
+    save(mesh, path);
     const TriangleMesh result = read_shape(path).mesh;
     ASSERT_EQ(result.triangles.size(), mesh.triangles.size()) << extension;
     EXPECT_EQ(result.points.size(), mesh.points.size()) << extension;

@@ -10,9 +10,9 @@
 #include <fstream>
 
 #include "base/srgb.h"
-#include "io/png_writer.h"
 #include "io/written_meshes.h"
 #include "pelage/error.h"
+#include "pelage/io.h"
 
 namespace pelage {
 namespace {

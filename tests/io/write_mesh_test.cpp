@@ -4,9 +4,9 @@
 #include <limits>
 #include <sstream>
 
-#include "io/read_shape.h"
 #include "io/written_meshes.h"
 #include "pelage/error.h"
+#include "pelage/io.h"
 #include "support/decimal_comma.h"
 
 namespace pelage {
@@ -40,10 +40,10 @@ TEST(WriteMesh, EveryFormatTwiceTheSameBytes) {
   for (const auto& [name, mesh] : meshes) {
     for (const std::string& extension : mesh_extensions()) {
       const fs::path path = folder / (name + extension);
-      write_mesh(mesh, path.string());
+      save(mesh, path.string());
       const std::string first = contents(path);
       EXPECT_FALSE(first.empty()) << path;
-      write_mesh(mesh, path.string());
+      save(mesh, path.string());
       EXPECT_EQ(contents(path), first) << path;
     }
   }
@@ -51,7 +51,7 @@ TEST(WriteMesh, EveryFormatTwiceTheSameBytes) {
 
 TEST(WriteMesh, CapitalExtension) {
   const fs::path path = test::fresh_folder() / "A.PLY";
-  write_mesh(test::tetrahedron(), path.string());
+  save(test::tetrahedron(), path.string());
   EXPECT_EQ(contents(path).substr(0, 4), "ply\n");
 }
 
@@ -71,14 +71,14 @@ TEST(WriteMesh, NothingThatIsNotANumberReachesAFile) {
       const std::string path = (folder / ("a" + extension)).string();
       TriangleMesh mesh = test::closed_mesh();
       mesh.find("a")->values[42] = value;
-      expect_error(Fault::numerics, "\"a\" is ", [&] { write_mesh(mesh, path); });
-      expect_error(Fault::numerics, "at vertex 42", [&] { write_mesh(mesh, path); });
+      expect_error(Fault::numerics, "\"a\" is ", [&] { save(mesh, path); });
+      expect_error(Fault::numerics, "at vertex 42", [&] { save(mesh, path); });
       mesh = test::seamed_mesh();
       mesh.find("uv")->values[2 * 7 + 1] = value;
-      expect_error(Fault::numerics, "at corner 1 of face 2", [&] { write_mesh(mesh, path); });
+      expect_error(Fault::numerics, "at corner 1 of face 2", [&] { save(mesh, path); });
       mesh = test::closed_mesh();
       mesh.points[3][2] = value;
-      expect_error(Fault::numerics, "the position is ", [&] { write_mesh(mesh, path); });
+      expect_error(Fault::numerics, "the position is ", [&] { save(mesh, path); });
       EXPECT_FALSE(fs::exists(path));
     }
   }
@@ -89,10 +89,10 @@ TEST(WriteMesh, TheSameBytesInEveryLocale) {
   const TriangleMesh mesh = test::seamed_mesh();
   for (const std::string& extension : mesh_extensions()) {
     const fs::path here = folder / ("here" + extension), there = folder / ("there" + extension);
-    write_mesh(mesh, here.string());
+    save(mesh, here.string());
     {
       const testing::DecimalComma elsewhere;
-      write_mesh(mesh, there.string());
+      save(mesh, there.string());
       if (extension != ".vtp") {
         EXPECT_TRUE(test::same_places(read_shape(here.string()).mesh, read_shape(there.string()).mesh)) << extension;
       }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "catalog/models.h"
+#include "react/stability.h"
 #include "react/support.h"
 
 namespace pelage {

@@ -1,11 +1,10 @@
-#include "render/picture.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/parallel.h"
 #include "pelage/error.h"
+#include "pelage/render.h"
 #include "shape/generators.h"
 
 namespace pelage {

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Every `pelage ...` line of the README does what it says: runs, and writes the files that it names; in few steps and with
-# small pictures, which is for time alone. Usage: SOURCE BINARY
+# small pictures, which is for time alone. Every line of C++ is one of an example, which the tests compile and run.
+# Usage: SOURCE BINARY
 set -uo pipefail
 source=$1
 pelage=$2/bin/pelage
@@ -31,6 +32,11 @@ while read -r line; do
     'pelage verify' | 'pelage gallery'* | 'pelage map'*) ;;  # minutes; tests of their own
     *) run_line "$line" ;;
   esac
+done <<<"$lines"
+lines=$(sed -n '/^## From C++/,/^## When/s/^    \(.*;\)$/\1/p' "$source/README.md")
+[ -n "$lines" ] || { echo "FAILED: the README's lines of C++ were not found"; exit 1; }
+while read -r line; do
+  cat "$source"/examples/*.cpp | grep -qF "$line" || { echo "FAILED: no example has: $line"; failures=$((failures + 1)); }
 done <<<"$lines"
 echo "$failures failures"
 [ "$failures" -eq 0 ]

@@ -1,12 +1,16 @@
 #pragma once
 // Fairing: noise is taken off a mesh while its shape and its edges stay.
+//
+//   pelage::TriangleMesh smooth = pelage::fair(pelage::load_shape("scan.ply")).mesh;
+//
+// All errors are pelage::Error, see error.h.
 
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
+#include "pelage/progress.h"
 #include "pelage/triangle_mesh.h"
 
 namespace pelage {
@@ -55,6 +59,8 @@ class Fairing {
   /// Looks at the noise and chooses; nothing moves. Errors as fair().
   explicit Fairing(const TriangleMesh& mesh, const FairOptions& options = {});
   ~Fairing();
+  Fairing(Fairing&&) noexcept;
+  Fairing& operator=(Fairing&&) noexcept;
 
   bool done() const;
   /// One step of the method.
@@ -65,10 +71,16 @@ class Fairing {
   /// Steps after which it ends in any case.
   int most_steps() const { return most_steps_; }
 
-  /// The vertices between two steps, without their volume restored; with report().steps and done() all that changes.
-  const std::vector<Point>& state() const;
-  /// Goes on from there. As many points as the mesh has vertices.
-  void restore(std::vector<Point> state, int steps, bool done);
+  /// All that changes, to go on from later.
+  struct State {
+    std::vector<Point> points;  ///< between two steps: the volume of closed parts is not restored
+    int steps = 0;
+    bool done = false;
+  };
+  State state() const;
+  /// Goes on from there, with the same mesh and options. Error(Fault::usage) unless there are as many points as the
+  /// mesh has vertices.
+  void restore(State state);
 
  private:
   struct Parts;

@@ -1,11 +1,17 @@
 #pragma once
-// Pictures of meshes as in a catalogue: soft light, a shadow on the ground, a plain backdrop.
+// Pictures of meshes as in a catalogue: soft light, a shadow on the ground, a plain backdrop. Link pelage::render.
+//
+//   pelage::write_png(pelage::render(coat), "coat.png");
+//
+// All errors are pelage::Error, see error.h.
 
 #include <array>
+#include <memory>
 
-#include "base/progress.h"
+#include "pelage/error.h"
+#include "pelage/image.h"
+#include "pelage/progress.h"
 #include "pelage/triangle_mesh.h"
-#include "shape/image.h"
 
 namespace pelage {
 
@@ -26,5 +32,22 @@ struct PictureOptions {
 /// The same bits for any number of threads. Errors: Fault::usage for options outside their ranges, Fault::input for
 /// a mesh without extent, Fault::cancelled when `progress` asks to stop.
 Image render(const TriangleMesh& mesh, const PictureOptions& options = {}, const Progress& progress = {});
+
+/// Several pictures of one mesh, which is prepared for rays once for each axis that points up. Not copyable; use it
+/// from one thread at a time (it uses several itself).
+class PictureScene {
+ public:
+  explicit PictureScene(TriangleMesh mesh);
+  ~PictureScene();
+  PictureScene(PictureScene&&) noexcept;
+  PictureScene& operator=(PictureScene&&) noexcept;
+
+  /// As the function above, with its errors.
+  Image render(const PictureOptions& options = {}, const Progress& progress = {});
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
 
 }  // namespace pelage
