@@ -13,8 +13,8 @@
 #include "pelage/io.h"
 #include "pelage/render.h"
 #include "run/run.h"
-#include "verify/problem.h"
 #include "shape/generators.h"
+#include "verify/problem.h"
 
 namespace pelage {
 namespace {
@@ -60,8 +60,7 @@ void assemble(benchmark::State& state, Discretisation (*discretise)(Topology)) {
 void tabulate(benchmark::State& state) {
   const ThreadLimit limit(threads(state));
   const TriangleMesh& mesh = sphere(state.range(0));
-  for (auto _ : state)
-    benchmark::DoNotOptimize(make_loop(make_topology(mesh.points.size(), mesh.triangles)));
+  for (auto _ : state) benchmark::DoNotOptimize(make_loop(make_topology(mesh.points.size(), mesh.triangles)));
 }
 
 /// A picture of 1024 x 1024 pixels of a mesh of about 2 * vertices triangles.
