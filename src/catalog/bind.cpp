@@ -7,6 +7,7 @@
 #include "base/box.h"
 #include "catalog/images.h"
 #include "catalog/marks.h"
+#include "catalog/names.h"
 #include "catalog/size.h"
 #include "react/place_values.h"
 #include "run/random_points.h"
@@ -19,15 +20,7 @@ namespace {
 std::vector<std::string> attributes_of(const TriangleMesh& shape, const std::vector<TextureFile>& textures) {
   std::vector<std::string> names;
   for (const auto& [name, values] : scalar_attributes(shape.attributes)) names.push_back(name);
-  for (const TextureFile& t : textures)
-    for (const std::string& name : attribute_names(t.name.value)) {
-      if (std::ranges::count(names, name) > 0)
-        throw Error(
-            Fault::usage,
-            "the texture \"" + t.name.value + "\" would hide another attribute \"" + name + "\"; give it another name",
-            t.name.where);
-      names.push_back(name);
-    }
+  for (const TextureFile& t : textures) take_texture_name(t.name, names);
   return names;
 }
 

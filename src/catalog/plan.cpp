@@ -166,14 +166,7 @@ void require_texture_names(const std::vector<TextureFile>& textures, const Model
       if (last.species_name(i) == t.name.value)
         throw Error(Fault::usage, "the texture \"" + t.name.value + "\" is called like a species; give it another name",
                     t.name.where);
-    for (const std::string& name : attribute_names(t.name.value)) {
-      if (std::ranges::count(taken, name) > 0)
-        throw Error(
-            Fault::usage,
-            "the texture \"" + t.name.value + "\" would hide another attribute \"" + name + "\"; give it another name",
-            t.name.where);
-      taken.push_back(name);
-    }
+    take_texture_name(t.name, taken);
   }
 }
 
