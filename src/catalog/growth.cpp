@@ -15,7 +15,7 @@ class TessellationCache {
  public:
   void clear() { made_.reset(); }
 
-  /// With curvatures even where none are asked for, if it is there.
+  /// With curvatures and attributes even where none are asked for, if it is there.
   const Tessellation& of(const Run& run, const TessellationRequest& request) {
     if (!made_ || !serves(made_->request, request)) made_.emplace(Made{request, tessellate(run.fields(), request)});
     return made_->tessellation;
@@ -29,6 +29,7 @@ class TessellationCache {
 
   static bool serves(const TessellationRequest& made, TessellationRequest asked) {
     asked.curvature |= made.curvature;
+    asked.attributes |= made.attributes;
     return made == asked;
   }
 

@@ -95,7 +95,7 @@ class Tessellator {
     if (request_.curvature) add_curvature(t.samples);
     t.attributes = kept_attributes(fields_.shape->attributes, fields_.species);
     for (Attribute& a : t.attributes) levels_.interpolate(a, 0, levels_.finest());
-    t.samples.attributes = layer_attributes(fields_.textures, t);
+    if (request_.attributes) t.samples.attributes = layer_attributes(fields_.textures, t);
     t.samples.length_unit = fields_.length_unit;
     t.samples.seed = fields_.seed;
     return t;
@@ -150,7 +150,7 @@ class Tessellator {
 TessellationRequest tessellation_request(const Look& look, const Paint& paint) {
   const bool curvature =
       std::ranges::any_of(paint.symbols(), [](const Symbol& s) { return s.kind == Symbol::Kind::curvature; });
-  return {look.keep_shape, look.detail, curvature};
+  return {look.keep_shape, look.detail, curvature, !paint.layers.empty()};
 }
 
 Tessellation tessellate(const CoatFields& fields, const TessellationRequest& request) {

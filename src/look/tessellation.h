@@ -19,6 +19,7 @@ struct TessellationRequest {
                                    ///< with the fields of the surface at the same barycentric coordinates
   std::optional<int> detail = {};  ///< how often every triangle is split into four; default: as the pattern needs
   bool curvature = false;          ///< whether the samples have any
+  bool attributes = false;         ///< whether they have those of the shape and its textures
   bool operator==(const TessellationRequest&) const = default;
 };
 
