@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "base/parallel.h"
 #include "pelage/error.h"
 
 namespace pelage {
@@ -11,9 +12,17 @@ namespace {
 
 std::string name(Index face) { return "face " + std::to_string(face); }
 
-/// Halfedges grouped by the smaller of their two vertices: `start` has vertex_count + 1 entries.
+/// A halfedge in the group of the smaller of its two vertices.
+struct GroupedHalfedge {
+  Index larger;  ///< of its two vertices
+  Index halfedge;
+  auto operator<=>(const GroupedHalfedge&) const = default;
+};
+
+/// `start` has vertex_count + 1 entries.
 struct HalfedgesByVertex {
-  std::vector<Index> start, halfedge;
+  std::vector<Index> start;
+  std::vector<GroupedHalfedge> entry;
 };
 
 HalfedgesByVertex group_by_smaller_vertex(const Topology& t) {
@@ -23,44 +32,44 @@ HalfedgesByVertex group_by_smaller_vertex(const Topology& t) {
   auto smaller = [&](Index h) { return static_cast<std::size_t>(std::min(t.origin(h), t.target(h))); };
   for (Index h = 0; h < halfedges; ++h) ++groups.start[smaller(h) + 1];
   for (std::size_t v = 1; v < groups.start.size(); ++v) groups.start[v] += groups.start[v - 1];
-  groups.halfedge.resize(static_cast<std::size_t>(halfedges));
+  groups.entry.resize(static_cast<std::size_t>(halfedges));
   std::vector<Index> cursor(groups.start.begin(), groups.start.end() - 1);
-  for (Index h = 0; h < halfedges; ++h) groups.halfedge[static_cast<std::size_t>(cursor[smaller(h)]++)] = h;
+  for (Index h = 0; h < halfedges; ++h)
+    groups.entry[static_cast<std::size_t>(cursor[smaller(h)]++)] = {std::max(t.origin(h), t.target(h)), h};
   return groups;
 }
 
-/// Pairs the halfedges of one group, which share their smaller vertex.
-void pair_group(Topology& t, const Index* begin, const Index* end) {
-  for (const Index* a = begin; a != end; ++a) {
-    for (const Index* b = a + 1; b != end; ++b) {
-      const bool same = t.origin(*a) == t.origin(*b) && t.target(*a) == t.target(*b);
-      const bool opposite = t.origin(*a) == t.target(*b) && t.target(*a) == t.origin(*b);
-      if (!same && !opposite) continue;
-      Index& twin_a = t.twin[static_cast<std::size_t>(*a)];
-      Index& twin_b = t.twin[static_cast<std::size_t>(*b)];
-      if (same || twin_a >= 0 || twin_b >= 0)
-        throw Error(Fault::input, name(*a / 3) + " and " + name(*b / 3) +
+/// Pairs the halfedges between the same two vertices.
+void pair_same(Topology& t, const GroupedHalfedge* begin, const GroupedHalfedge* end) {
+  for (const GroupedHalfedge* p = begin; p != end; ++p) {
+    for (const GroupedHalfedge* q = p + 1; q != end; ++q) {
+      const Index a = p->halfedge, b = q->halfedge;
+      Index& twin_a = t.twin[static_cast<std::size_t>(a)];
+      Index& twin_b = t.twin[static_cast<std::size_t>(b)];
+      if (t.origin(a) == t.origin(b) || twin_a >= 0 || twin_b >= 0)
+        throw Error(Fault::input, name(a / 3) + " and " + name(b / 3) +
                                       " meet at a non-manifold or inconsistently oriented edge; repair the mesh first");
-      twin_a = *b;
-      twin_b = *a;
+      twin_a = b;
+      twin_b = a;
     }
   }
 }
 
-/// Sorts long groups (high valence) so that only equal far vertices are compared.
+/// The groups are short; of a long one (high valence) only equal far vertices are compared.
 void pair_halfedges(Topology& t) {
   HalfedgesByVertex groups = group_by_smaller_vertex(t);
-  auto larger = [&](Index h) { return std::max(t.origin(h), t.target(h)); };
-  for (std::size_t v = 0; v + 1 < groups.start.size(); ++v) {
-    Index* begin = groups.halfedge.data() + groups.start[v];
-    Index* end = groups.halfedge.data() + groups.start[v + 1];
-    std::stable_sort(begin, end, [&](Index a, Index b) { return larger(a) < larger(b); });
-    for (Index* a = begin; a != end;) {
-      Index* b = std::find_if(a, end, [&](Index h) { return larger(h) != larger(*a); });
-      pair_group(t, a, b);
-      a = b;
+  parallel_for(static_cast<std::size_t>(t.vertex_count), [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) {
+      GroupedHalfedge* begin = groups.entry.data() + groups.start[v];
+      GroupedHalfedge* end = groups.entry.data() + groups.start[v + 1];
+      std::sort(begin, end);
+      for (GroupedHalfedge* a = begin; a != end;) {
+        GroupedHalfedge* b = std::find_if(a, end, [&](const GroupedHalfedge& h) { return h.larger != a->larger; });
+        pair_same(t, a, b);
+        a = b;
+      }
     }
-  }
+  });
 }
 
 void number_edges(Topology& t) {

@@ -1,0 +1,32 @@
+#pragma once
+// A mesh of nearly equilateral triangles of wanted size on a given surface.
+
+#include <vector>
+
+#include "shape/mesh_place.h"
+
+namespace pelage {
+
+struct IsotropicMesh {
+  std::vector<Triangle> triangles;  ///< in the order of their smallest vertex
+  std::vector<Point> points;        ///< neighbours have near numbers
+  std::vector<MeshPlace> places;    ///< of the points, on the triangles of the base
+};
+
+/// The same surface with edges of about `edge`: area * 2 / (sqrt(3) edge^2) vertices, nearly all of valence 5 to 7.
+/// Edges are cut, collapsed and turned, vertices move to the middle of their surroundings (Botsch, Kobbelt 2004, "A
+/// remeshing approach to multiresolution modeling", section 4), always on the flat triangles of the base.
+///
+/// The base must be an oriented manifold; it may have boundaries and several components and be uneven. Components,
+/// holes and handles all stay, also those smaller than an edge. Boundary vertices stay on the boundary, and where it
+/// turns by more than 40 degrees one stays in place. Edges where the new mesh bends by more than 60 degrees are kept
+/// roughly; finer creases are not. The result does not depend on the number of threads.
+/// Throws Error(Fault::usage) unless all edges are positive, or for more than 100 million triangles.
+IsotropicMesh isotropic_mesh(const std::vector<Triangle>& triangles, const std::vector<Point>& points, double edge);
+
+/// The same with one edge length per base vertex, linear between. Lengths that grow by more than 0.3 per unit of length
+/// along the surface are lowered.
+IsotropicMesh isotropic_mesh(const std::vector<Triangle>& triangles, const std::vector<Point>& points,
+                             const std::vector<double>& edges);
+
+}  // namespace pelage
