@@ -20,7 +20,7 @@ enum class UpAxis { y, z };
 struct PictureOptions {
   int width = 1024;   ///< pixels, 1 to 32768
   int height = 1024;  ///< pixels, 1 to 32768
-  int samples = 32;   ///< paths per pixel; noise falls a little faster than with their square root
+  int samples = 32;  ///< rays per pixel; light is smoothed over neighbours, with more rays over fewer, and from 512 not
   UpAxis up = UpAxis::y;
   double azimuth = 35;    ///< degrees around the up axis; 0 looks from +z (up y) or -y (up z), 90 from +x
   double elevation = 14;  ///< degrees above the horizon, -89 to 89

@@ -1,31 +1,21 @@
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <numbers>
+#include <functional>
+#include <numeric>
 #include <optional>
 
 #include "base/parallel.h"
 #include "pelage/render.h"
-#include "render/camera.h"
+#include "render/painter.h"
 #include "render/ray_scene.h"
-#include "render/sampler.h"
-#include "render/studio.h"
+#include "render/smooth_light.h"
 
 namespace pelage {
 
 using Eigen::Vector3f;
 
 namespace {
-
-/// What the random numbers of a sample are used for; each use has its own sequence.
-enum Use : std::uint32_t { use_pixel = 1, use_key = 2, use_bounce = 3, use_second_key = 4, use_dither = 5 };
-
-/// Random points for one sample of one pixel.
-struct Sample {
-  std::uint32_t index;
-  std::array<float, 2> operator()(Use use) const { return scrambled_sobol(index, use); }
-};
 
 /// The object turned upright, scaled to a bounding sphere of diameter 1 and put on the ground y = 0.
 std::vector<Vector3f> stand_upright(const TriangleMesh& mesh, const Eigen::Matrix3d& rotation) {
@@ -52,169 +42,15 @@ Eigen::Matrix3d upright_rotation(UpAxis up) {
 
 /// A mesh that stands on the ground, for rays to be shot at.
 struct StandingMesh {
-  StandingMesh(const TriangleMesh& mesh, UpAxis up_axis)
+  StandingMesh(const TriangleMesh& mesh, UpAxis up_axis, const std::function<bool(double)>& report)
       : up(up_axis),
         points(stand_upright(mesh, upright_rotation(up))),
-        scene(mesh, points, upright_rotation(up).cast<float>()) {}
+        scene(mesh, points, upright_rotation(up).cast<float>(), report) {}
 
   UpAxis up;
   std::vector<Vector3f> points;
   RayScene scene;
 };
-
-class Painter {
- public:
-  Painter(const StandingMesh& model, const PictureOptions& options)
-      : options_(options),
-        scene_(model.scene),
-        camera_(frame_points(model.points, options.azimuth, options.elevation, aspect(options), margin)),
-        studio_(camera_.back, Eigen::Map<const Eigen::Vector3d>(options.background.data()).cast<float>()) {}
-
-  Vector3f pixel(int x, int y) const;
-
- private:
-  static constexpr double margin = 0.09;
-  static double aspect(const PictureOptions& o) { return static_cast<double>(o.width) / o.height; }
-
-  Vector3f path(float x, float y, const Sample& sample) const;
-  Vector3f surface(const SurfacePoint& point, const Vector3f& direction, const Sample& sample) const;
-  Vector3f ground(const Vector3f& place, const Sample& sample) const;
-  Vector3f arriving(const Vector3f& origin, const Vector3f& direction, const Sample& sample) const;
-  Vector3f bounced(const Vector3f& origin, const Vector3f& normal, const Vector3f& color, const Sample& sample) const;
-
-  PictureOptions options_;
-  const RayScene& scene_;
-  Camera camera_;
-  Studio studio_;
-};
-
-/// The part of the room's light that still arrives after two bounces, as a share of a white surface: without it
-/// creases would go black. A guess that is right for the middle of a matt half-closed hollow.
-constexpr float remaining_light = 0.22F;
-
-/// Light that a matt surface sends on after the first bounce: key lamp with its shadow, and a guess for the rest.
-Vector3f Painter::bounced(const Vector3f& origin, const Vector3f& normal, const Vector3f& color,
-                          const Sample& sample) const {
-  const Vector3f to_key = studio_.key_direction(sample(use_second_key));
-  const float cosine = normal.dot(to_key);
-  Vector3f light = Vector3f::Constant(remaining_light);
-  if (cosine > 0 && !scene_.occluded(origin, to_key)) light += cosine * studio_.key();
-  return color.cwiseProduct(light);
-}
-
-/// Light that comes to `origin` from `direction`.
-Vector3f Painter::arriving(const Vector3f& origin, const Vector3f& direction, const Sample& sample) const {
-  if (const auto hit = scene_.intersect(origin, direction))
-    return bounced(hit->lifted, hit->normal, hit->color, sample);
-  if (direction.y() >= 0) return studio_.room(direction);
-  constexpr float above_ground = 1e-4F;
-  Vector3f place = origin - direction * (origin.y() / direction.y());
-  place.y() = above_ground;
-  return bounced(place, Vector3f::UnitY(), studio_.paper(), sample);
-}
-
-/// Fresnel reflectance of hair and skin at a cosine (Schlick 1994), index of refraction about 1.5.
-float fresnel(float cosine) {
-  constexpr float facing = 0.04F;
-  const float x = 1 - std::clamp(cosine, 0.0F, 1.0F);
-  return facing + (1 - facing) * (x * x) * (x * x) * x;
-}
-
-/// Microfacet highlight for light of unit irradiance over pi (GGX; Walter et al. 2007, with the visibility term
-/// of Karis 2013), times the cosine at the surface.
-float highlight(const Vector3f& normal, const Vector3f& view, const Vector3f& light) {
-  constexpr float alpha = 0.22F;  // a brushed coat: broad and soft
-  constexpr float alpha2 = alpha * alpha;
-  const Vector3f half = (view + light).normalized();
-  const float nv = std::max(0.05F, normal.dot(view)), nl = normal.dot(light), nh = normal.dot(half);
-  if (nl <= 0) return 0;
-  const float d = nh * nh * (alpha2 - 1) + 1;
-  constexpr float k = alpha / 2;
-  const float visibility = 1 / (4 * (nv * (1 - k) + k) * (nl * (1 - k) + k));
-  return alpha2 / (d * d) * visibility * fresnel(view.dot(half)) * nl;
-}
-
-Vector3f Painter::surface(const SurfacePoint& point, const Vector3f& direction, const Sample& sample) const {
-  const Vector3f view = -direction;
-  Vector3f color = Vector3f::Zero();
-  const Vector3f to_key = studio_.key_direction(sample(use_key));
-  const float cosine = point.normal.dot(to_key);
-  if (cosine > 0 && !scene_.occluded(point.lifted, to_key)) {
-    const float gloss = highlight(point.normal, view, to_key);
-    color += (point.color * cosine + Vector3f::Constant(gloss)).cwiseProduct(studio_.key());
-  }
-  const Vector3f outward = cosine_direction(point.normal, sample(use_bounce));
-  if (outward.dot(point.face_normal) <= 0) return color;
-  const Vector3f light = arriving(point.lifted, outward, sample);
-  // The sheen of the room: rough fur reflects about a third of what a polished surface would at grazing angles.
-  constexpr float roughness_loss = 0.35F;
-  const float sheen = roughness_loss * fresnel(point.normal.dot(view));
-  return color + light.cwiseProduct((1 - sheen) * point.color + Vector3f::Constant(sheen));
-}
-
-/// How much of its light the ground keeps beside the object, per colour.
-Vector3f Painter::ground(const Vector3f& place, const Sample& sample) const {
-  const Vector3f up = Vector3f::UnitY();
-  const Vector3f to_key = studio_.key_direction(sample(use_key));
-  const Vector3f upward = cosine_direction(up, sample(use_bounce));
-  const Vector3f open_key = to_key.y() * studio_.key(), open_room = studio_.room(upward);
-  Vector3f light = scene_.occluded(place, to_key) ? Vector3f::Zero().eval() : open_key;
-  light += arriving(place, upward, sample);
-  return light.cwiseQuotient(open_key + open_room);
-}
-
-Vector3f Painter::path(float x, float y, const Sample& sample) const {
-  const Vector3f direction = camera_.direction(x, y);
-  if (const auto hit = scene_.intersect(camera_.position, direction)) return surface(*hit, direction, sample);
-  const Vector3f paper = studio_.backdrop(x, y);
-  if (direction.y() >= 0 || camera_.position.y() <= 0) return paper;
-  constexpr float above_ground = 1e-4F, far_away = 4;  // object sizes: no shadow reaches there
-  Vector3f place = camera_.position - direction * (camera_.position.y() / direction.y());
-  place.y() = above_ground;
-  if (place.norm() > far_away) return paper;
-  return paper.cwiseProduct(ground(place, sample));
-}
-
-/// Density of a tent of half-width 1 pixel around 0, by inversion.
-float tent(float random) { return random < 0.5F ? std::sqrt(2 * random) - 1 : 1 - std::sqrt(2 - 2 * random); }
-
-/// Whether the paths of a pixel agree so well that more of them cannot change its 8 bits: plain backdrop.
-class Agreement {
- public:
-  void add(const Vector3f& color) {
-    low_ = low_.cwiseMin(color);
-    high_ = high_.cwiseMax(color);
-  }
-  bool reached() const { return (high_ - low_).maxCoeff() < 0.002F; }  // half a step of sRGB at light grey
-
- private:
-  Vector3f low_ = Vector3f::Constant(1e9F), high_ = Vector3f::Constant(-1e9F);
-};
-
-/// Noise of half a step of 8-bit sRGB at light grey, or the even backdrop would show bands.
-float dither(std::uint32_t index) {
-  constexpr float step = 0.01F;  // relative, in linear light
-  return 1 + step * (scrambled_sobol(index, use_dither)[0] - 0.5F);
-}
-
-Vector3f Painter::pixel(int x, int y) const {
-  const auto block = std::bit_ceil(static_cast<std::uint32_t>(options_.samples));
-  const std::uint32_t number = z_order(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
-  constexpr int enough_if_agreed = 8;
-  Vector3f sum = Vector3f::Zero();
-  Agreement agreement;
-  int count = 0;
-  while (count < options_.samples && !(count == enough_if_agreed && agreement.reached())) {
-    const Sample sample{number * block + static_cast<std::uint32_t>(count++)};
-    const std::array<float, 2> place = sample(use_pixel);
-    const float px = static_cast<float>(x) + 0.5F + tent(place[0]), py = static_cast<float>(y) + 0.5F + tent(place[1]);
-    const auto width = static_cast<float>(options_.width), height = static_cast<float>(options_.height);
-    const Vector3f color = path(2 * px / width - 1, 1 - 2 * py / height, sample);
-    sum += color;
-    agreement.add(color);
-  }
-  return sum * (dither(number) / static_cast<float>(count));
-}
 
 void check(const PictureOptions& options) {
   constexpr int largest = 32768;  // z_order has 16 bits per axis
@@ -228,27 +64,130 @@ void check(const PictureOptions& options) {
                 "the camera's elevation must lie between -89 and 89 degrees, its azimuth within ten turns");
 }
 
-Image picture(const StandingMesh& model, const PictureOptions& options, const Progress& progress) {
-  const Painter painter(model, options);
-  Image image{options.width, options.height, std::vector<float>(std::size_t{3} * options.width * options.height)};
-  constexpr int band = 32;              // rows between two reports
-  constexpr std::size_t portion = 256;  // pixels that a thread takes at a time
-  for (int top = 0; top < options.height; top += band) {
-    if (progress && !progress("picture", static_cast<double>(top) / options.height))
-      throw Error(Fault::cancelled, "the picture was cancelled");
-    const int rows = std::min(band, options.height - top);
-    parallel_for(
-        static_cast<std::size_t>(rows) * options.width,
-        [&](std::size_t begin, std::size_t end) {
-          for (std::size_t i = begin; i < end; ++i) {
-            const std::size_t pixel = static_cast<std::size_t>(top) * options.width + i;
-            const int x = static_cast<int>(pixel % options.width), y = static_cast<int>(pixel / options.width);
-            Eigen::Map<Vector3f>(image.rgb.data() + 3 * pixel) = painter.pixel(x, y);
-          }
-        },
-        portion);
+/// Fractions of something that takes the part from `begin` to `end` of the whole.
+struct Part {
+  const Progress& progress;
+  double begin, end;
+
+  bool go_on(double fraction) const { return !progress || progress("picture", begin + (end - begin) * fraction); }
+  void report(double fraction) const {
+    if (!go_on(fraction)) throw Error(Fault::cancelled, "the picture was cancelled");
   }
-  return image;
+  Part part(double from, double to) const {
+    return {progress, begin + (end - begin) * from, begin + (end - begin) * to};
+  }
+};
+
+/// With many rays there is less noise to be smoothed, and with very many none.
+Rays rays_of(int samples) {
+  const auto count = static_cast<std::uint32_t>(samples);
+  Rays rays{std::max(1U, count / 2), std::max(1U, count / 8), 0};
+  constexpr std::uint32_t enough = 64;
+  for (std::uint32_t light = rays.light; light < enough && rays.levels < 4; light *= 2) ++rays.levels;
+  return rays;
+}
+
+class Picture {
+ public:
+  Picture(const StandingMesh& model, const TriangleMesh& mesh, const PictureOptions& options)
+      : rays_(rays_of(options.samples)),
+        painter_(model.scene, model.points, mesh.triangles, options, rays_),
+        image_{options.width, options.height, std::vector<float>(std::size_t{3} * options.width * options.height)} {}
+
+  Image paint(const Part& whole) {
+    const int tiles = std::max(most_pixels / image_.width, 4 * light_reach(rays_.levels)) / Painter::tile;
+    const int rows = std::max(1, tiles) * Painter::tile;
+    const double all = cost(0, image_.height);
+    for (int top = 0; top < image_.height; top += rows) {
+      const int bottom = std::min(top + rows, image_.height);
+      paint_rows(top, bottom, whole.part(cost(0, top) / all, cost(0, bottom) / all));
+    }
+    return std::move(image_);
+  }
+
+ private:
+  static constexpr int most_pixels = 1 << 19;  // at a time; each takes 200 bytes
+
+  /// Time that rows take, in units of that of a square without the object.
+  double cost(int top, int bottom) const {
+    constexpr double busy = 12;
+    double sum = 0;
+    for (int row = top / Painter::tile; row * Painter::tile < bottom; ++row)
+      for (int column = 0; column * Painter::tile < image_.width; ++column)
+        sum += painter_.busy(column, row) ? busy : 1;
+    return sum;
+  }
+
+  void paint_rows(int top, int bottom, const Part& part) {
+    constexpr double traced = 0.8, coat_smoothed = 0.9;  // shares of the time
+    // Whole squares, in which the painter looks for what is worth its rays.
+    const int reach = (light_reach(rays_.levels) + Painter::tile - 1) / Painter::tile * Painter::tile;
+    const int first = std::max(0, top - reach), last = std::min(image_.height, bottom + reach);
+    Band band(first, last - first, image_.width);
+    trace(band, part.part(0, traced));
+    const auto smooth = [&](auto& light, const std::vector<LightGuide>& guides, const Part& share) {
+      smooth_light(light, guides, band.width, painter_.floor_stretch(), rays_.levels,
+                   [&](double fraction) { share.report(fraction); });
+    };
+    smooth(band.coat, band.guides, part.part(traced, coat_smoothed));
+    smooth(band.floor, {}, part.part(coat_smoothed, 1));
+    parallel_for(static_cast<std::size_t>(bottom - top) * band.width, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const int x = static_cast<int>(i) % band.width, y = top + static_cast<int>(i) / band.width;
+        const std::size_t pixel = static_cast<std::size_t>(y) * band.width + x;
+        Eigen::Map<Vector3f>(image_.rgb.data() + 3 * pixel) = painter_.color(band, x, y);
+      }
+    });
+  }
+
+  void trace(Band& band, const Part& part) const {
+    const int columns = (band.width + Painter::tile - 1) / Painter::tile;
+    const int first = band.first / Painter::tile, last = (band.first + band.rows - 1) / Painter::tile;
+    const std::size_t tiles = static_cast<std::size_t>(columns) * (last - first + 1);
+    // Neighbours take equally long; with strides between them every portion takes as long as any other.
+    const std::size_t stride = coprime_stride(tiles);
+    const std::size_t few = std::min<std::size_t>(64, 1024 / rays_.view);  // squares between reports
+    const std::size_t portion = std::max(few, static_cast<std::size_t>(concurrency()));
+    for (std::size_t begin = 0; begin < tiles; begin += portion) {
+      part.report(static_cast<double>(begin) / static_cast<double>(tiles));
+      parallel_chunks(std::min(portion, tiles - begin), [&](std::size_t i) {
+        const auto t = static_cast<int>((begin + i) * stride % tiles);
+        painter_.trace(band, t % columns, first + t / columns);
+      });
+    }
+  }
+
+  /// Near the golden section of n and coprime to it.
+  static std::size_t coprime_stride(std::size_t n) {
+    auto stride = static_cast<std::size_t>(0.618 * static_cast<double>(n)) + 1;
+    while (std::gcd(stride, n) != 1) ++stride;
+    return stride;
+  }
+
+  Rays rays_;
+  Painter painter_;
+  Image image_;
+};
+
+/// The part of the time that goes into the tree of the rays.
+double building_share(std::size_t triangles, const PictureOptions& options) {
+  const double rays = static_cast<double>(options.width) * options.height * options.samples / 8;
+  return static_cast<double>(triangles) / (static_cast<double>(triangles) + rays);
+}
+
+/// `model` is made if it does not stand as wanted.
+Image picture(const TriangleMesh& mesh, std::optional<StandingMesh>& model, const PictureOptions& options,
+              const Progress& progress) {
+  check(options);
+  const Part whole{progress, 0, 1};
+  whole.report(0);
+  double built = 0;
+  if (!model || model->up != options.up) {
+    built = building_share(mesh.triangles.size(), options);
+    model.reset();
+    model.emplace(mesh, options.up, [&](double fraction) { return whole.part(0, built).go_on(fraction); });
+  }
+  return Picture(*model, mesh, options).paint(whole.part(built, 1));
 }
 
 }  // namespace
@@ -265,15 +204,12 @@ PictureScene::PictureScene(PictureScene&&) noexcept = default;
 PictureScene& PictureScene::operator=(PictureScene&&) noexcept = default;
 
 Image PictureScene::render(const PictureOptions& options, const Progress& progress) {
-  check(options);
-  std::optional<StandingMesh>& model = parts_->model;
-  if (!model || model->up != options.up) model.emplace(parts_->mesh, options.up);
-  return picture(*model, options, progress);
+  return picture(parts_->mesh, parts_->model, options, progress);
 }
 
 Image render(const TriangleMesh& mesh, const PictureOptions& options, const Progress& progress) {
-  check(options);
-  return picture(StandingMesh(mesh, options.up), options, progress);
+  std::optional<StandingMesh> model;
+  return picture(mesh, model, options, progress);
 }
 
 }  // namespace pelage

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <vector>
 
 namespace pelage {
 
@@ -16,20 +17,45 @@ class Studio {
 
   /// A direction towards a point of the key lamp for a random point of the unit square.
   Eigen::Vector3f key_direction(const std::array<float, 2>& random) const;
+  /// Directions and weights whose weighted sum over a smooth function is its mean over the key lamp.
+  struct LampPoint {
+    Eigen::Vector3f direction;
+    float weight;
+  };
+  const std::array<LampPoint, 7>& key_points() const { return key_points_; }
+  /// The cosine at a surface with unit normal n, zero behind its horizon, as a mean over the key lamp.
+  float key_cosine(const Eigen::Vector3f& n) const;
   /// Irradiance of a surface that faces the key lamp, divided by pi.
   const Eigen::Vector3f& key() const { return key_; }
   /// Radiance that comes from the room (ceiling, walls, rim lamp) in an upward direction.
   Eigen::Vector3f room(const Eigen::Vector3f& direction) const;
-  /// Colour of the paper, lit and without shadow, at a place of the picture with both coordinates in [-1, 1].
-  Eigen::Vector3f backdrop(float x, float y) const;
+  /// What a matt surface sends on to another one; `key_cosine` is that at the visible part of the key lamp.
+  Eigen::Vector3f bounced(const Eigen::Vector3f& color, float key_cosine) const;
+  /// Radiance from any direction when there is no object: the room, or the floor where the key lamp lights it.
+  Eigen::Vector3f open(const Eigen::Vector3f& direction) const { return direction.y() >= 0 ? room(direction) : floor_; }
+  /// The mean of `open` with density cos / pi around n: irradiance over pi. Tabulated, to within 0.3 %.
+  Eigen::Vector3f open_irradiance(const Eigen::Vector3f& n) const;
+  /// Brightness of the paper, lit and without shadow, at a place of the picture with both coordinates in [-1, 1]: its
+  /// share of the paper's colour.
+  float backdrop(float x, float y) const;
   const Eigen::Vector3f& paper() const { return paper_; }
 
  private:
-  Eigen::Vector3f key_, paper_;
+  void tabulate();
+
+  Eigen::Vector3f key_, paper_, floor_;
   Eigen::Vector3f to_key_, to_rim_, key_x_, key_y_;
+  std::array<LampPoint, 7> key_points_;
+  std::vector<Eigen::Vector3f> irradiance_;  ///< over the octahedral map of directions
 };
 
 /// Direction with density cos / pi around the unit vector n (Malley's method).
 Eigen::Vector3f cosine_direction(const Eigen::Vector3f& n, const std::array<float, 2>& random);
+
+/// The same for a point of the unit disc, of which it is the projection along n.
+Eigen::Vector3f hemisphere_direction(const Eigen::Vector3f& n, const Eigen::Vector2f& disc);
+
+/// Uniform in the unit disc for a random point of the unit square.
+Eigen::Vector2f disc_point(const std::array<float, 2>& random);
 
 }  // namespace pelage

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/parallel.h"
@@ -113,15 +115,118 @@ TEST(Picture, WithoutNormalsAndColoursFlatAndGrey) {
 }
 
 TEST(Picture, ProgressAndCancel) {
+  PictureOptions options = small();
+  options.width = options.height = 512;
+  options.samples = 4;
   std::vector<double> fractions;
-  render(ball(1, 0, 0), small(), [&](std::string_view, double f) { return fractions.push_back(f), true; });
+  const TriangleMesh mesh = ball(1, 0, 0);
+  render(mesh, options, [&](std::string_view, double f) { return fractions.push_back(f), true; });
   EXPECT_EQ(fractions.front(), 0);
+  EXPECT_LE(fractions.back(), 1);
   EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
-  try {
-    render(ball(1, 0, 0), small(), [](std::string_view, double) { return false; });
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.fault(), Fault::cancelled);
+  for (std::size_t i = 1; i < fractions.size(); ++i) EXPECT_LT(fractions[i] - fractions[i - 1], 0.1);
+  for (std::size_t stop = 0; stop < fractions.size(); stop += 5) {
+    std::size_t reports = 0;
+    try {
+      render(mesh, options, [&](std::string_view, double) { return reports++ < stop; });
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.fault(), Fault::cancelled);
+      EXPECT_EQ(reports, stop + 1);
+    }
+  }
+}
+
+/// A sphere with sharp black and white stripes, finer than the light.
+TriangleMesh striped_ball() {
+  TriangleMesh mesh = ball(0, 0, 0);
+  std::vector<double>& color = mesh.find("color")->values;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    std::fill_n(color.begin() + 3 * static_cast<std::ptrdiff_t>(i), 3,
+                std::sin(9 * mesh.points[i][1]) > 0 ? 0.8 : 0.05);
+  return mesh;
+}
+
+double luminance(const Image& image, std::size_t pixel) {
+  const float* c = image.rgb.data() + 3 * pixel;
+  return 0.2126 * static_cast<double>(c[0]) + 0.7152 * static_cast<double>(c[1]) + 0.0722 * static_cast<double>(c[2]);
+}
+
+/// Compares a picture of the usual quality with one of many rays whose light is not smoothed: root mean square of the
+/// difference over the mean luminance, and largest relative difference of the means over squares.
+std::array<double, 2> error_of_usual_quality(const TriangleMesh& mesh) {
+  PictureOptions options;
+  options.width = options.height = 128;
+  PictureScene scene(mesh);
+  const Image usual = scene.render(options);
+  options.samples = 512;
+  const Image exact = scene.render(options);
+  double squares = 0, sum = 0, worst = 0;
+  const std::size_t pixels = exact.rgb.size() / 3;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    squares += std::pow(luminance(usual, i) - luminance(exact, i), 2) / static_cast<double>(pixels);
+    sum += luminance(exact, i) / static_cast<double>(pixels);
+  }
+  for (int y = 0; y < 100; y += 10)
+    for (int x = 0; x < 100; x += 10)
+      worst = std::max(worst, std::abs(mean(usual, x, y, 10, 1) / mean(exact, x, y, 10, 1) - 1));
+  return {std::sqrt(squares) / sum, worst};
+}
+
+TEST(Picture, SmoothedLightIsThatOfManyRays) {
+  const auto [deviation, worst] = error_of_usual_quality(ball(0.6, 0.5, 0.4));
+  // In so small a picture shadows near the ball are a few pixels wide.
+  EXPECT_LT(deviation, 0.013);
+  EXPECT_LT(worst, 0.03);
+}
+
+TEST(Picture, StripesStaySharp) {
+  // Smoothed with the light they would be off by a tenth.
+  const auto [deviation, worst] = error_of_usual_quality(striped_ball());
+  EXPECT_LT(deviation, 0.016);
+  EXPECT_LT(worst, 0.03);
+}
+
+/// A green ball between a small red one and the key lamp, or beside that way.
+TriangleMesh two_balls(bool in_the_way) {
+  TriangleMesh mesh = ball(0, 0.5, 0);
+  const TriangleMesh red = ball(0.5, 0, 0);
+  const auto count = static_cast<std::int32_t>(mesh.points.size());
+  const double side = in_the_way ? -0.447 : 0.447;  // the lamp: -42 degrees, 48 above the floor
+  for (Point& p : mesh.points) p = {p[0] + 1.8 * side, p[1] + 1.8 * 0.743, p[2] + 1.8 * 0.497};
+  for (const Point& p : red.points) mesh.points.push_back({0.4 * p[0], 0.4 * p[1], 0.4 * p[2]});
+  for (const Triangle& t : red.triangles) mesh.triangles.push_back({t[0] + count, t[1] + count, t[2] + count});
+  for (std::size_t k = 0; k < mesh.attributes.size(); ++k)
+    mesh.attributes[k].values.insert(mesh.attributes[k].values.end(), red.attributes[k].values.begin(),
+                                     red.attributes[k].values.end());
+  return mesh;
+}
+
+double brightness_of_red(const Image& image) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3)
+    if (image.rgb[i] > 2 * image.rgb[i + 1]) sum += static_cast<double>(image.rgb[i]), ++count;
+  EXPECT_GT(count, 50);
+  return sum / count;
+}
+
+TEST(Picture, OneThingShadesAnother) {
+  PictureOptions options = small();
+  options.azimuth = options.elevation = 0;
+  const double shaded = brightness_of_red(render(two_balls(true), options)),
+               lit = brightness_of_red(render(two_balls(false), options));
+  EXPECT_LT(shaded, 0.6 * lit);
+  EXPECT_GT(shaded, 0.1 * lit);
+}
+
+TEST(Picture, PlainBackdropIsTheStudios) {
+  // Far from the ball there is no light but that in the open.
+  PictureOptions options = small();
+  const Image image = render(ball(0.5, 0.5, 0.5), options);
+  for (int x : {0, 40, 95}) {
+    const double px = (2 * x + 1) / 96.0 - 1, py = 1 - 1 / 96.0;
+    const double fall = 0.16 * (px * px + py * py) + 0.05 * py;
+    EXPECT_NEAR(static_cast<double>(image.rgb[static_cast<std::size_t>(3 * x)]), 0.8 * (1 - fall), 0.006 * 0.8);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "pelage/error.h"
 #include "shape/generators.h"
 
 namespace pelage {
@@ -64,6 +65,31 @@ TEST(RayScene, NoRaySlipsThroughAClosedSurface) {
   const std::vector<Vector3f> points = points_of(mesh);
   for (const Triangle& t : mesh.triangles)  // along the edges, the weakest places
     EXPECT_TRUE(scene.occluded({0, 0, 0}, (points[t[0]] + points[t[1]]).normalized()));
+}
+
+TEST(RayScene, ABundleFindsWhatItsRaysFind) {
+  const TriangleMesh mesh = sphere();
+  const RayScene scene(mesh, points_of(mesh), Eigen::Matrix3f::Identity());
+  const Vector3f origin(0, 0, 5);
+  std::vector<Vector3f> directions;
+  for (int i = 0; i < 11; ++i) directions.push_back(Vector3f(0.03F * static_cast<float>(i), 0.01F, -1).normalized());
+  std::vector<Hit> hits(directions.size());
+  scene.intersect(origin, directions, hits);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const auto alone = scene.intersect(origin, directions[i]);
+    ASSERT_EQ(alone.has_value(), hits[i].triangle != Hit::nothing);
+    const float distance = scene.distance(origin, directions[i]);
+    EXPECT_EQ(std::isinf(distance), !alone);
+    if (!alone) continue;
+    const SurfacePoint point = scene.surface_point(scene.skin(directions[i], hits[i]), hits[i]);
+    EXPECT_LT((point.position - alone->position).norm(), 1e-5F);
+    EXPECT_NEAR((point.position - origin).norm(), distance, 1e-5F);
+  }
+}
+
+TEST(RayScene, BuildingCanBeCancelled) {
+  const TriangleMesh mesh = sphere();
+  EXPECT_THROW(RayScene(mesh, points_of(mesh), Eigen::Matrix3f::Identity(), [](double) { return false; }), Error);
 }
 
 TEST(RayScene, RotationTurnsTheNormals) {
