@@ -156,7 +156,8 @@ void grow(const GrowOptions& options) {
   catch_interrupts();
   const ThreadLimit threads(options.threads.value_or(0));
   ProgressBar bar(options.quiet ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
-  const Progress progress = bar.progress();
+  Profile profile;
+  const Progress progress = profile.measured(bar.progress());
   GrowReport report(form_of(options), bar);
   const Stopwatch total;
 
@@ -172,6 +173,7 @@ void grow(const GrowOptions& options) {
   write_picture(options.picture, progress, report, [&](const Progress& p) { return render(grown.coat, picture, p); });
   write_picture(options.panels, progress, report,
                 [&](const Progress& p) { return four_panels(recipe, *grown.shape, grown.coat, picture, p); });
+  if (options.profile) report.profile(profile);
   report.end(total.seconds());
 }
 

@@ -7,6 +7,7 @@
 #include "base/suggest.h"
 #include "catalog/models.h"
 #include "catalog/plan.h"
+#include "catalog/quality.h"
 #include "catalog/size.h"
 #include "io/atomic_file.h"
 #include "io/png_writer.h"
@@ -41,6 +42,13 @@ std::string method_choices() {
   std::string text;
   for (const Method* m : methods())
     text += (text.empty() ? "" : " or ") + std::string(m->name) + " (" + std::string(m->summary) + ")";
+  return text;
+}
+
+std::string quality_choices() {
+  std::string text;
+  for (const Quality& q : qualities())
+    text += (text.empty() ? "" : ", ") + std::string(q.name) + " (" + std::string(q.summary) + ")";
   return text;
 }
 
@@ -91,8 +99,12 @@ void add_pattern_options(CLI::App& app, GrowOptions& o) {
 
 void add_time_options(CLI::App& app, GrowOptions& o) {
   const std::string group = "Computation";
+  app.add_option("--quality", o.quality, "How accurate the coat is: " + quality_choices())
+      ->type_name("NAME")
+      ->group(group);
   app.add_option("--method", o.method, "Finite elements: " + method_choices())->type_name("NAME")->group(group);
-  app.add_option("--stepper", o.stepper, "Time stepper (default: sbdf2)" + choices(stepper_names()))
+  app.add_option("--stepper", o.stepper,
+                 "Time stepper (default: what suits the method and the model)" + choices(stepper_names()))
       ->type_name("NAME")
       ->group(group);
   app.add_option("--step", o.step, "Fixed time step, model time (default: chosen as the pattern allows)")
@@ -190,6 +202,7 @@ void add_output_options(CLI::App& app, GrowOptions& o) {
          "Which axis of the shape points up in the picture: y (default) or z")
       ->type_name("AXIS")
       ->group(group);
+  app.add_flag("--profile", o.profile, "Print where the time went")->group(group);
   app.add_flag("--json", o.json, "Print what was done as JSON")->group(group);
   app.add_flag("-q,--quiet", o.quiet, "Print warnings and errors only")->group(group);
 }
@@ -352,6 +365,7 @@ Recipe make_recipe(const GrowOptions& options) {
   if (recipe.shape.empty())
     throw Error(Fault::usage, "no shape to grow on; name a file or a built-in one, for example builtin:animal");
   for (const std::string& text : options.textures) apply_texture(text, recipe.textures);
+  if (options.quality) recipe.quality = {*options.quality, {"--quality"}};
   apply(options, recipe.stages);
   apply(options, recipe.motion);
   apply(options, recipe.look);

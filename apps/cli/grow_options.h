@@ -14,7 +14,7 @@ namespace pelage {
 /// What was given; what was not is empty and left to the recipe.
 struct GrowOptions {
   std::string shape;
-  std::optional<std::string> recipe, model, size, unit, method, stepper, species, ramp;
+  std::optional<std::string> recipe, model, size, unit, quality, method, stepper, species, ramp;
   std::vector<std::string> settings;  ///< "PARAM=VALUE" or "STAGE.PARAM=VALUE"
   std::vector<std::string> maps;      ///< "PARAM=FORMULA", likewise
   std::vector<std::string> textures;  ///< "NAME=FILE"
@@ -24,6 +24,7 @@ struct GrowOptions {
   std::optional<int> detail, threads;
   std::string fair;  ///< method of fairing, or empty
   std::optional<std::string> motion;
+  bool profile = false;
   bool interpolate = false, invert = false, keep_shape = false;
 
   std::vector<std::string> outputs;

@@ -45,7 +45,9 @@ std::string status_name(RunStatus status) {
   return "running";
 }
 
-std::string refinement(int levels, bool smooth) {
+std::string meshing(const Method& method, int levels) {
+  if (method.own_mesh) return "even triangles on the surface";
+  const bool smooth = method.limit_masks != nullptr;
   if (levels == 0) return "as it is";
   return "every triangle split into " + std::to_string(1L << (2 * levels)) +
          (smooth ? " by Loop's rules" : " at midpoints");
@@ -82,7 +84,7 @@ void GrowReport::shape(const std::string& name, const ShapeFile& file) {
 
 void GrowReport::pattern(const Run& run) {
   const World& world = run.world();
-  const Topology& topology = world.hierarchy()->topology(world.levels());
+  const Topology& topology = world.topology();
   const double diagonal = box_of(world.points()).diagonal();
   double finest = std::numeric_limits<double>::infinity();
   json_["stages"] = Json::array();
@@ -104,8 +106,8 @@ void GrowReport::pattern(const Run& run) {
   }
   const Method& method = *run.program().method;
   const double density = finest / prevailing_edge(topology.triangles, world.space().control());
-  line("mesh", refinement(world.levels(), method.limit_masks != nullptr) + ": " +
-                   counted(topology.vertex_count, "vertex") + ", " + brief(density) + " per wavelength");
+  line("mesh", meshing(method, world.levels()) + ": " + counted(topology.vertex_count, "vertex") + ", " +
+                   brief(density) + " per wavelength");
   json_["method"] = method.name;
   json_["refinements"] = world.levels();
   json_["control_vertices"] = topology.vertex_count;
@@ -153,6 +155,15 @@ void GrowReport::file(const std::string& path) {
   const auto bytes = std::filesystem::file_size(path, ignored);
   line("wrote", path + " (" + file_size(bytes) + ")");
   json_["files"].push_back({{"path", path}, {"bytes", bytes}});
+}
+
+void GrowReport::profile(Profile& profile) {
+  double total = 0;
+  for (const Profile::Phase& p : profile.phases()) total += p.seconds;
+  for (const Profile::Phase& p : profile.phases()) {
+    line("profile", p.name + ": " + duration(p.seconds) + ", " + brief(100 * p.seconds / total) + " %");
+    json_["profile"]["seconds"][p.name] = p.seconds;
+  }
 }
 
 void GrowReport::end(double seconds) {

@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "pelage/io.h"
+#include "profile.h"
 #include "progress_bar.h"
 #include "run/run.h"
 
@@ -23,6 +24,7 @@ class GrowReport {
   void surface(const MovingSurface& surface);
   void growth(const Run& run, double seconds);
   void file(const std::string& path);
+  void profile(Profile& profile);
   void end(double seconds);
 
  private:

@@ -76,8 +76,8 @@ struct Stage {
   std::optional<Given<Length>> size;        ///< wanted wavelength of the pattern; default: 4 % of the diagonal
   std::optional<Given<Length>> unit;        ///< instead of it: the length of the model's own length unit
   std::optional<Given<std::string>> size_map;  ///< formula of the place: factor on the size
-  Given<std::string> method{"loop", {}};       ///< discretisation
-  Given<std::string> stepper{"sbdf2", {}};
+  Given<std::string> method{"remeshed", {}};   ///< discretisation
+  Given<std::string> stepper{"", {}};          ///< empty: the first that suits the method and the model
   std::optional<double> step;         ///< fixed step [model time]; default: adaptive, or the stepper's safe step
   std::optional<double> until;        ///< stop at this model time; default: the model's suggestion
   std::optional<std::int64_t> steps;  ///< stop after so many steps
@@ -126,7 +126,8 @@ using ModelTexts = std::map<std::string, std::string>;
 struct Recipe {
   std::string name;
   std::string summary;
-  std::string shape;  ///< used when the command names none
+  std::string shape;                         ///< used when the command names none
+  Given<std::string> quality{"normal", {}};  ///< "draft", "normal" or "fine"
   std::vector<TextureFile> textures;
   ModelTexts models;             ///< beside the built-in ones and files
   std::vector<Stage> stages{1};  ///< at least one

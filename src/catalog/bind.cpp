@@ -10,6 +10,7 @@
 #include "catalog/names.h"
 #include "catalog/size.h"
 #include "react/place_values.h"
+#include "run/material.h"
 #include "run/random_points.h"
 
 namespace pelage {
@@ -80,12 +81,31 @@ StageProgram bind_stage(const PlannedStage& planned, const Program& program, dou
   return s;
 }
 
-/// The longest edge that carries the patterns of a stage.
-double stage_edge(const PlannedStage& planned, const StageProgram& s, const Program& program) {
-  const double edge = s.size / planned.model.source().suggestions.resolution_or_default();
-  if (!planned.size_map) return edge;
+/// Lowers the edges of the program to those that carry the patterns of its latest stage.
+void need_edges_of(const PlannedStage& planned, const Quality& quality, Program& program) {
+  const StageProgram& s = program.stages.back();
+  const double edges =
+      quality.edges * program.method->edges * planned.model.source().suggestions.resolution_or_default();
+  const double edge = s.size / edges;
   const MeshPlaces places{*program.shape, program.textures, s.length_unit, s.seed};
-  return edge * smallest_factor(*planned.size_map, places, edge, planned.asked.size_map->where);
+  double smallest = 1;
+  std::vector<double> factor(program.edges.size(), 1.0);
+  if (planned.size_map) {
+    smallest = smallest_factor(*planned.size_map, places, edge, planned.asked.size_map->where);
+    // Of an image the vertices may miss the details.
+    if (textures_read(planned.size_map->symbols(), program.textures).empty())
+      factor = vertex_values(*planned.size_map, places);
+    else
+      factor.assign(factor.size(), smallest);
+  }
+  program.edge = std::min(program.edge, edge * smallest);
+  for (std::size_t v = 0; v < program.edges.size(); ++v)
+    program.edges[v] = std::min(program.edges[v], edge * factor[v]);
+}
+
+/// Whether the mesh of the run can have other edges where the size is another.
+bool sizes_differ(const Plan& plan, const Method& method) {
+  return method.own_mesh && std::ranges::any_of(plan.stages, [](const auto& s) { return s.size_map.has_value(); });
 }
 
 /// Loop elements are made for moderate valences: where the recipe does not insist, others take their place.
@@ -114,14 +134,22 @@ Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> ima
   p.shape = std::make_shared<const TriangleMesh>(std::move(shape));
   p.textures = std::move(images);
   p.interpolate = plan.interpolate;
+  p.step_error = plan.quality->step_error;
   p.motion = {plan.fair, plan.motion.growth, plan.motion.mode.value == "physical", plan.motion.every};
   p.edge = std::numeric_limits<double>::infinity();
+  if (sizes_differ(plan, *p.method)) p.edges.assign(p.shape->points.size(), p.edge);
   for (const PlannedStage& s : plan.stages) {
     p.stages.push_back(bind_stage(s, p, diagonal));
-    p.edge = std::min(p.edge, stage_edge(s, p.stages.back(), p));
+    need_edges_of(s, *plan.quality, p);
   }
-  p.edge /=
-      std::exp(std::max(0.0, plan.motion.growth * plan.until));  // it has to do when the surface is at its largest
+  // The shape itself needs some.
+  constexpr double longest_share = 0.02;
+  if (p.method->own_mesh) p.edge = std::min(p.edge, longest_share * diagonal);
+  for (double& edge : p.edges) edge = std::min(edge, longest_share * diagonal);
+  // They have to do when the surface is at its largest.
+  const double growth = std::exp(std::max(0.0, plan.motion.growth * plan.until));
+  p.edge /= growth;
+  for (double& edge : p.edges) edge /= growth;
   return p;
 }
 

@@ -68,8 +68,9 @@ Suggestions suggestions(const Value& table) {
   const Value* suggested = table.find("suggested");
   if (!suggested) return {};
   const auto resolution = suggested->optional_number("resolution");
-  if (resolution && !(*resolution >= 4 && *resolution <= 64))
-    throw Error(Fault::usage, "a resolution is a number of vertices per wavelength from 4 to 64",
+  // With fewer, sharp spots blow up at any step: Schnakenberg's below 5.3 Loop vertices per wavelength.
+  if (resolution && !(*resolution >= 6 && *resolution <= 64))
+    throw Error(Fault::usage, "a resolution is a number of vertices per wavelength from 6 to 64",
                 suggested->at("resolution").where());
   return {suggested->optional_number("step"), suggested->optional_number("end"),
           suggested->optional_number("tolerance"), resolution};

@@ -62,16 +62,44 @@ void require_same_method(const Stage& first, const Stage& stage) {
                 stage.method.where);
 }
 
-void require_stepper_can(const StepperKind& stepper, const Model& model, const Location& where) {
-  const auto refuse = [&](const std::string& what) {
+/// What keeps a stepper from growing a model with a method; empty if nothing does.
+std::string what_stepper_cannot(const StepperKind& stepper, const Method& method, const Model& model) {
+  if (!stepper.couples && !model.coupled().empty())
+    return "grow \"" + model.name() + "\", whose species are coupled by lap()";
+  if (!stepper.holds && model.held()) return "hold parts of the surface";
+  if (stepper.nodal && !method.nodal)
+    return "grow with the method \"" + std::string(method.name) + "\", whose unknowns are no values at places";
+  return {};
+}
+
+/// The asked one, or else the first that can.
+const StepperKind* fitting_stepper(const Given<std::string>& asked, const Method& method, const Model& model,
+                                   const Motion& motion, const Components& components) {
+  if (asked.value.empty()) {
+    const bool dilutes = motion.growth != 0 && motion.mode.value == "physical";
+    const auto can = [&](const StepperKind* kind) {
+      return what_stepper_cannot(*kind, method, model).empty() && (kind->dilutes || !dilutes);
+    };
+    if (const auto found = std::ranges::find_if(components.steppers, can); found != components.steppers.end())
+      return *found;
+    return &sbdf2;
+  }
+  const StepperKind& stepper = component(asked, "stepper", components.steppers);
+  if (const std::string what = what_stepper_cannot(stepper, method, model); !what.empty())
     throw Error(Fault::usage,
                 "the stepper \"" + std::string(stepper.name) + "\" cannot " + what + "; take \"" +
                     std::string(sbdf2.name) + "\"",
-                where);
-  };
-  if (!stepper.couples && !model.coupled().empty())
-    refuse("grow \"" + model.name() + "\", whose species are coupled by lap()");
-  if (!stepper.holds && model.held()) refuse("hold parts of the surface");
+                asked.where);
+  return &stepper;
+}
+
+const Quality& quality_called(const Given<std::string>& name) {
+  std::vector<std::string> names;
+  for (const Quality& q : qualities()) {
+    if (q.name == name.value) return q;
+    names.emplace_back(q.name);
+  }
+  throw Error(Fault::usage, unknown_name("quality", name.value, names), name.where);
 }
 
 /// Names of all fields that these stages leave behind.
@@ -120,11 +148,10 @@ std::optional<PlaceFormula> plan_size_map(const Stage& stage, const Model& model
   return known_from_mesh(formula) ? std::optional(std::move(formula)) : std::nullopt;
 }
 
-PlannedStage plan_stage(const Stage& stage, const Recipe& recipe, const std::vector<PlannedStage>& before,
-                        const Components& components) {
+PlannedStage plan_stage(const Stage& stage, const Recipe& recipe, const Method& method,
+                        const std::vector<PlannedStage>& before, const Components& components) {
   PlannedStage p;
   p.asked = stage;
-  p.stepper = &component(stage.stepper, "stepper", components.steppers);
   require_known(stage.inside, "way to treat the inside of a mask", {"frozen", "excluded"});
   require_same_method(recipe.stages[0], stage);
   const ModelSource source = find_model(stage.model.value, recipe.models);
@@ -132,7 +159,7 @@ PlannedStage plan_stage(const Stage& stage, const Recipe& recipe, const std::vec
   const std::vector<std::string> fields = earlier_fields(before);
   p.model = compile(source, numbers_of(stage), stage_changes(source, stage, fields));
   require_fields(place_symbols(p.model), fields);
-  require_stepper_can(*p.stepper, p.model, stage.stepper.where);
+  p.stepper = fitting_stepper(stage.stepper, method, p.model, recipe.motion, components);
   if (stage.directions) plan_directions(*stage.directions, p);
   p.size_map = plan_size_map(stage, p.model);
   require_one_size(stage);
@@ -186,9 +213,10 @@ Plan plan(const Recipe& recipe, const Components& components) {
   const Given<std::string>& method = recipe.stages[0].method;
   p.method = &component(method, "method", components.methods);
   p.method_asked = !method.where.file.empty();
+  p.quality = &quality_called(recipe.quality);
   p.textures = recipe.textures;
   for (const Stage& stage : recipe.stages) {
-    p.stages.push_back(plan_stage(stage, recipe, p.stages, components));
+    p.stages.push_back(plan_stage(stage, recipe, *p.method, p.stages, components));
     p.until += p.stages.back().until;
     p.interpolate |= stage.interpolate;
   }

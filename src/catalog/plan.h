@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "catalog/components.h"
+#include "catalog/quality.h"
 #include "look/palette.h"
 #include "pelage/fair.h"
 #include "pelage/recipe.h"
@@ -27,6 +28,7 @@ struct PlannedStage {
 struct Plan {
   const Method* method = nullptr;
   bool method_asked = false;  ///< by the recipe: then it is not exchanged for one that suits the shape better
+  const Quality* quality = nullptr;
   bool interpolate = false;
   std::vector<TextureFile> textures;
   std::vector<PlannedStage> stages;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "discretise/method.h"
+#include "discretise/simulation_mesh.h"
 #include "pelage/triangle_mesh.h"
 #include "shape/texture.h"
 
@@ -16,12 +17,14 @@ struct CoatFields {
   std::shared_ptr<const TriangleMesh> shape;   ///< the mesh that the user gave, repaired
   std::vector<Point> points;                   ///< where its vertices are now
   std::vector<Texture> textures;               ///< that layers may read
-  std::shared_ptr<const Hierarchy> hierarchy;  ///< of the shape; the fields live on its finest level
+  std::shared_ptr<const Hierarchy> hierarchy;  ///< of the shape; the fields live on its finest level, or on a
+  std::shared_ptr<const SimulationMesh> mesh;  ///< mesh of their own (else null)
   const Method* method = nullptr;
   std::shared_ptr<const Space> space;
-  std::vector<Point> initial_control;             ///< control points before the surface moved; empty if it has not
+  std::vector<Point> control;                     ///< at the finest level
+  std::vector<Point> initial_control;             ///< the same before the surface moved; empty if it has not
   std::vector<std::string> species;               ///< of earlier stages "STAGE.SPECIES"
-  std::vector<std::vector<double>> coefficients;  ///< per species, one for every control point
+  std::vector<std::vector<double>> coefficients;  ///< per species, one for every unknown of the space
   std::vector<char> uniform;                      ///< per species, whether it shows no pattern
   double wavelength = 0;                          ///< of the finest pattern [world units]
   double length_unit = 1;                         ///< world length of a model length unit of the last stage

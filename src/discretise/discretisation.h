@@ -62,6 +62,9 @@ struct LoopQuadrature {
 Discretisation loop_discretisation(std::shared_ptr<const Topology> topology, const LoopQuadrature& quadrature = {});
 Discretisation loop_discretisation(Topology topology, const LoopQuadrature& quadrature = {});
 
+/// Control points whose limit surface goes through the points.
+std::vector<Point> loop_interpolation(const Topology& topology, const std::vector<Point>& points);
+
 /// Linear finite elements (the cotangent method) on the flat triangles: 3-point quadrature at the edge midpoints, exact
 /// for quadratics, hence for the mass matrix.
 Discretisation linear_discretisation(std::shared_ptr<const Topology> topology);

@@ -66,19 +66,43 @@ Discretisation linear_discretisation(Topology topology) {
 
 namespace {
 
+constexpr int rings_of_a_basis_function = 2;  // one would do, but a mask shall cut the same with every method
+
 std::shared_ptr<const Space> linear_space(std::shared_ptr<const Topology> topology, std::vector<Point> control) {
-  constexpr int rings_of_a_basis_function = 2;  // one would do, but a mask shall cut the same with every method
   return surface_space(linear_discretisation(std::move(topology)), std::move(control), rings_of_a_basis_function);
+}
+
+/// Of the mass matrix: see blended_sampling.
+constexpr double consistent_share = 0.5;
+
+std::shared_ptr<const Space> remeshed_space(std::shared_ptr<const Topology> topology, std::vector<Point> points) {
+  return surface_space(linear_discretisation(std::move(topology)), std::move(points), rings_of_a_basis_function,
+                       consistent_share);
 }
 
 }  // namespace
 
+constexpr Method remeshed_method = {.name = "remeshed",
+                                    .summary = "fast, default",
+                                    .refine = loop_refine,
+                                    .limit_masks = loop_limit_masks,
+                                    .interpolate = loop_interpolation,
+                                    .make_space = remeshed_space,
+                                    .own_mesh = true,
+                                    .nodal = true,
+                                    .edges = 5.0 / 3,
+                                    .max_valence = max_loop_valence,
+                                    .safe_anisotropy = 3.5};
+
 constexpr Method linear_method = {.name = "linear",
-                                  .summary = "flat, faster",
+                                  .summary = "on the flat triangles of the shape",
                                   .refine = midpoint_refine,
                                   .limit_masks = nullptr,
                                   .interpolate = nullptr,
                                   .make_space = linear_space,
+                                  .own_mesh = false,
+                                  .nodal = true,
+                                  .edges = 1,
                                   .max_valence = std::numeric_limits<Index>::max(),
                                   .safe_anisotropy = 2};
 

@@ -151,18 +151,21 @@ std::shared_ptr<const Space> loop_space(std::shared_ptr<const Topology> topology
   return surface_space(loop_discretisation(std::move(topology)), std::move(control), rings_of_a_basis_function);
 }
 
+}  // namespace
+
 std::vector<Point> loop_interpolation(const Topology& topology, const std::vector<Point>& points) {
   return interpolating_control(loop_discretisation(topology), points);
 }
 
-}  // namespace
-
 constexpr Method loop_method = {.name = "loop",
-                                .summary = "smooth, default",
+                                .summary = "smooth, for small errors",
                                 .refine = loop_refine,
                                 .limit_masks = loop_limit_masks,
                                 .interpolate = loop_interpolation,
                                 .make_space = loop_space,
+                                .own_mesh = false,
+                                .nodal = false,
+                                .edges = 1,
                                 .max_valence = max_loop_valence,
                                 .safe_anisotropy = 32};
 

@@ -19,14 +19,19 @@ struct Method {
       const Topology& topology,
       const std::vector<Point>& points);  ///< control points
                                           ///< whose surface goes through the points; null: they themselves
+  /// On the control points; with `own_mesh` on the vertices of a simulation mesh.
   std::shared_ptr<const Space> (*make_space)(std::shared_ptr<const Topology> topology, std::vector<Point> control);
+  bool own_mesh;      ///< lives on a SimulationMesh of the surface that the control points make
+  bool nodal;         ///< coefficients are the values at the nodes
+  double edges;       ///< edges that it needs where Loop elements need one
   Index max_valence;  ///< edges at a vertex
   /// Ratio of the rates along and across up to which waves across a field that is oblique to an even mesh decay, at the
   /// coarsest resolution, no faster than they do without anisotropy but for a percent of their rate (Loop) or for a few
-  /// (linear, whose error is 17 % to begin with): tests/run/anisotropy_test.cpp measures it.
+  /// (linear, whose error is 17 % to begin with, and remeshed): tests/run/anisotropy_test.cpp measures it.
   double safe_anisotropy;
 };
 
+extern const Method remeshed_method;
 extern const Method loop_method;
 extern const Method linear_method;
 

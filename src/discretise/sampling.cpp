@@ -54,12 +54,12 @@ void give_isolated_vertices_weight(Vector& weight) {
     if (!(w > 0)) w = 1;
 }
 
-Vector vertex_weights(const Discretisation& d, const std::vector<double>& area, const SparseMatrix& transposed,
+Vector vertex_weights(const Discretisation& d, const std::vector<double>& area, const SparseMatrix& test,
                       const SparseMatrix& mass) {
   const Vector ones = Vector::Ones(d.unknowns);
   const Vector integral = mass * ones;
   const Vector share = area_share(d, area);
-  Vector weight = d.nodal ? integral : solve_general(transposed, integral);
+  Vector weight = d.nodal ? integral : solve_general(test, integral);
   weight = weight.cwiseMax(0.1 * share);
   weight *= integral.sum() / weight.sum();
   give_isolated_vertices_weight(weight);
@@ -85,12 +85,50 @@ Sampling vertex_sampling(const Discretisation& d, const std::vector<Point>& cont
 }
 
 Sampling vertex_sampling(const Discretisation& d, const std::vector<Point>& control, const SparseMatrix& mass,
-                         SparseMatrix transposed, const std::vector<double>& area) {
+                         SparseMatrix test, const std::vector<double>& area) {
   Sampling s;
   s.values = d.values;
-  s.transposed = std::move(transposed);
-  s.weight = vertex_weights(d, area, s.transposed, mass);
+  s.test = std::move(test);
+  s.weight = vertex_weights(d, area, s.test, mass);
   s.position = limit_positions(d, control);
+  return s;
+}
+
+namespace {
+
+/// Mass that vertices lack so that K_ii / L_i is at most 1.5 times what 95 % of them keep.
+Vector missing_mass(const SparseMatrix& stiffness, const Vector& lumped) {
+  const Vector of_stiffness = diagonal(stiffness);
+  std::vector<double> ratio(at(lumped.size()));
+  for (std::size_t i = 0; i < ratio.size(); ++i) ratio[i] = of_stiffness[i] / lumped[i];
+  if (ratio.empty()) return {};
+  const auto most = ratio.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(ratio.size() - 1));
+  std::ranges::nth_element(ratio, most);
+  const double limit = 1.5 * *most;
+  return limit > 0 ? Vector((of_stiffness / limit - lumped).cwiseMax(0)) : Vector::Zero(lumped.size());
+}
+
+}  // namespace
+
+Sampling blended_sampling(const Discretisation& d, const std::vector<Point>& points, const SparseMatrix& consistent,
+                          const SparseMatrix& stiffness, double share) {
+  Sampling s;
+  s.values = d.values;
+  const Vector lumped = consistent * Vector::Ones(d.unknowns);
+  s.weight = lumped;
+  give_isolated_vertices_weight(s.weight);
+  s.weight += missing_mass(stiffness, s.weight);
+  s.position = points;
+  s.test = consistent;
+  const SparsePattern& pattern = *s.test.pattern;
+  parallel_for(at(pattern.rows), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (auto k = at(pattern.start[i]); k < at(pattern.start[i + 1]); ++k) {
+        const Index j = pattern.column[k];
+        const double beside = share * s.test.value[k];  // the diagonal holds what makes the row sum the weight
+        s.test.value[k] = (at(j) == i ? s.weight[j] - share * lumped[j] + beside : beside) / s.weight[j];
+      }
+  });
   return s;
 }
 
@@ -98,7 +136,7 @@ Sampling quadrature_sampling(const Discretisation& d, const std::vector<Point>& 
   QuadratureGeometry g = quadrature_geometry(d, control);
   Sampling s;
   s.values = quadrature_values(d);
-  s.transposed = transpose(s.values);
+  s.test = transpose(s.values);
   s.weight = Eigen::Map<const Vector>(g.weight.data(), static_cast<Eigen::Index>(g.weight.size()));
   s.position = std::move(g.position);
   return s;
@@ -107,7 +145,7 @@ Sampling quadrature_sampling(const Discretisation& d, const std::vector<Point>& 
 SparseMatrix sampled_mass(const Sampling& s, const Vector& weight,
                           const std::shared_ptr<const SparsePattern>& pattern) {
   SparseMatrix mass = zeros(pattern);
-  const SparsePattern& samples_of = *s.transposed.pattern;
+  const SparsePattern& samples_of = *s.test.pattern;
   const SparsePattern& functions_of = *s.values.pattern;
   parallel_for(at(pattern->rows), [&](std::size_t begin, std::size_t end) {
     // Where in row i a column is; of the columns of other rows it knows nothing.
@@ -116,7 +154,7 @@ SparseMatrix sampled_mass(const Sampling& s, const Vector& weight,
       for (auto k = pattern->start[i]; k < pattern->start[i + 1]; ++k) place[at(pattern->column[at(k)])] = k;
       for (auto k = samples_of.start[i]; k < samples_of.start[i + 1]; ++k) {
         const auto sample = at(samples_of.column[at(k)]);
-        const double factor = s.transposed.value[at(k)] * weight[static_cast<Eigen::Index>(sample)];
+        const double factor = s.test.value[at(k)] * weight[static_cast<Eigen::Index>(sample)];
         for (auto j = functions_of.start[sample]; j < functions_of.start[sample + 1]; ++j)
           mass.value[at(place[at(functions_of.column[at(j)])])] += factor * s.values.value[at(j)];
       }
@@ -125,7 +163,7 @@ SparseMatrix sampled_mass(const Sampling& s, const Vector& weight,
   return mass;
 }
 
-Vector load(const Sampling& s, const Vector& f) { return s.transposed * Vector(s.weight.cwiseProduct(f)); }
+Vector load(const Sampling& s, const Vector& f) { return s.test * Vector(s.weight.cwiseProduct(f)); }
 
 Vector coefficients_from_samples(const Sampling& s, const SparseMatrix& mass, const Vector& samples) {
   return solve_spd(mass, load(s, samples), {.tolerance = 1e-13});

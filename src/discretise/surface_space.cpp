@@ -23,11 +23,14 @@ SampledMass SurfaceSpace::sampled(SampleRule rule) const {
   SparseMatrix mass = fresh ? std::move(assembled_->mass) : connectivity_->assembler.mass(control_);
   if (rule == SampleRule::quadrature) {
     made.sampling = std::make_shared<const Sampling>(quadrature_sampling(d, control_));
+  } else if (const double share = connectivity_->consistent; share > 0) {
+    made.sampling = std::make_shared<const Sampling>(blended_sampling(d, control_, mass, *stiffness_, share));
+    mass = sampled_mass(*made.sampling, made.sampling->weight, connectivity_->assembler.pattern());
   } else {
-    SparseMatrix transposed = earlier_ ? earlier_->transposed : transpose(d.values);
-    made.sampling = std::make_shared<const Sampling>(
-        fresh ? vertex_sampling(d, control_, mass, std::move(transposed), assembled_->area)
-              : vertex_sampling(d, control_, mass));
+    SparseMatrix test = earlier_ ? earlier_->test : transpose(d.values);
+    made.sampling =
+        std::make_shared<const Sampling>(fresh ? vertex_sampling(d, control_, mass, std::move(test), assembled_->area)
+                                               : vertex_sampling(d, control_, mass));
     earlier_.reset();
     mass = sampled_mass(*made.sampling, made.sampling->weight, connectivity_->assembler.pattern());
   }
@@ -113,10 +116,11 @@ std::shared_ptr<const Space> SurfaceSpace::moved(std::vector<Point> control) con
   return space;
 }
 
-std::shared_ptr<const SurfaceSpace> surface_space(Discretisation discretisation, std::vector<Point> control,
-                                                  int reach) {
+std::shared_ptr<const SurfaceSpace> surface_space(Discretisation discretisation, std::vector<Point> control, int reach,
+                                                  double consistent) {
   return std::make_shared<const SurfaceSpace>(
-      std::make_shared<const SurfaceSpace::Connectivity>(std::move(discretisation), reach), std::move(control));
+      std::make_shared<const SurfaceSpace::Connectivity>(std::move(discretisation), reach, consistent),
+      std::move(control));
 }
 
 }  // namespace pelage

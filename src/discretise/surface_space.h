@@ -15,9 +15,11 @@ class SurfaceSpace final : public Space {
   struct Connectivity {
     Discretisation discretisation;
     Assembler assembler;
-    int reach;  ///< rings of triangles around a vertex that its basis function covers
+    int reach;          ///< rings of triangles around a vertex that its basis function covers
+    double consistent;  ///< share of the consistent mass at the nodes of linear elements; 0: as vertex_sampling has it
 
-    Connectivity(Discretisation d, int rings) : discretisation(std::move(d)), assembler(discretisation), reach(rings) {}
+    Connectivity(Discretisation d, int rings, double share)
+        : discretisation(std::move(d)), assembler(discretisation), reach(rings), consistent(share) {}
   };
 
   SurfaceSpace(std::shared_ptr<const Connectivity> connectivity, std::vector<Point> control);
@@ -53,6 +55,7 @@ class SurfaceSpace final : public Space {
   mutable std::shared_ptr<const Sampling> earlier_;  ///< at the vertices, of another place, which shares its matrices
 };
 
-std::shared_ptr<const SurfaceSpace> surface_space(Discretisation discretisation, std::vector<Point> control, int reach);
+std::shared_ptr<const SurfaceSpace> surface_space(Discretisation discretisation, std::vector<Point> control, int reach,
+                                                  double consistent = 0);
 
 }  // namespace pelage

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pelage/error.h"
+#include "shape/locate.h"
 #include "shape/normals.h"
 #include "shape/refine.h"
 #include "shape/vectors.h"
@@ -13,7 +14,7 @@ namespace pelage {
 namespace {
 
 /// Colours are linear along the edges of the output: so many edges per wavelength keep spots round.
-constexpr double edges_per_wavelength = 16;
+constexpr double edges_per_wavelength = 8;
 /// Splitting for the sake of smooth colours stops here: about 100 MB of output.
 constexpr std::size_t most_triangles = 1'500'000;
 /// More than this no memory holds.
@@ -33,7 +34,7 @@ std::vector<Attribute> kept_attributes(std::vector<Attribute> attributes, const 
 
 int levels_for_colour(const CoatFields& fields) {
   const Topology& finest = fields.hierarchy->topology(fields.hierarchy->finest());
-  double edge = prevailing_edge(finest.triangles, fields.space->control());
+  double edge = prevailing_edge(finest.triangles, fields.control);
   std::size_t triangles = finest.triangles.size();
   int levels = 0;
   while (edge > fields.wavelength / edges_per_wavelength && 4 * triangles <= most_triangles) {
@@ -90,8 +91,9 @@ class Tessellator {
     if (fields_.method->limit_masks) masks_ = fields_.method->limit_masks(levels_.topology(levels_.finest()));
     Tessellation t;
     t.triangles = levels_.topology(levels_.finest()).triangles;
-    add_fields(t.samples);
     add_geometry(t);
+    find_places(t.samples);
+    add_fields(t.samples);
     if (request_.curvature) add_curvature(t.samples);
     t.attributes = kept_attributes(fields_.shape->attributes, fields_.species);
     for (Attribute& a : t.attributes) levels_.interpolate(a, 0, levels_.finest());
@@ -110,7 +112,23 @@ class Tessellator {
     return levels_.refined(control, run_level(), levels_.finest());
   }
 
+  /// Where the vertices lie on the mesh of the fields, if they have one of their own.
+  void find_places(const CoatSamples& samples) {
+    if (!fields_.mesh) return;
+    const SurfaceWalk mesh(*fields_.mesh->shared_topology(), fields_.space->control());
+    places_ =
+        locate(levels_.topology(levels_.finest()),
+               request_.keep_shape ? combine(masks_->position, refined(fields_.control)) : samples.position, mesh);
+  }
+  std::vector<std::vector<double>> on_mesh(const std::vector<std::vector<double>>& at_nodes) const {
+    return fields_at(places_, *fields_.mesh->shared_topology(), fields_.space->control(), at_nodes);
+  }
+
   void add_fields(CoatSamples& samples) const {
+    if (fields_.mesh) {
+      samples.fields = on_mesh(fields_.coefficients);
+      return;
+    }
     for (const std::vector<double>& coefficients : fields_.coefficients) {
       std::vector<double> field = levels_.refined(coefficients, run_level(), levels_.finest());
       samples.fields.push_back(masks_ ? combine(masks_->position, field) : std::move(field));
@@ -121,7 +139,7 @@ class Tessellator {
     CoatSamples& s = t.samples;
     const bool moved = !fields_.initial_control.empty();
     if (masks_ && !request_.keep_shape) {
-      const std::vector<Point> control = refined(fields_.space->control());
+      const std::vector<Point> control = refined(fields_.control);
       s.position = combine(masks_->position, control);
       s.normal = limit_normals(*masks_, control);
       if (moved) s.drawn_at = combine(masks_->position, refined(fields_.initial_control));
@@ -135,6 +153,11 @@ class Tessellator {
   /// Those of the surface at the nodes of the run, linear between them.
   void add_curvature(CoatSamples& samples) const {
     PrincipalCurvatures k = fields_.space->geometry(SampleRule::vertices, true).curvature;
+    if (fields_.mesh) {
+      auto at_places = on_mesh({k.k1, k.k2});
+      samples.curvature = {std::move(at_places[0]), std::move(at_places[1])};
+      return;
+    }
     samples.curvature = {levels_.interpolated(std::move(k.k1), 1, run_level(), levels_.finest()),
                          levels_.interpolated(std::move(k.k2), 1, run_level(), levels_.finest())};
   }
@@ -143,6 +166,7 @@ class Tessellator {
   const TessellationRequest& request_;
   const Hierarchy levels_;
   std::optional<LimitMasks> masks_;
+  std::vector<MeshPlace> places_;  ///< of the vertices on the mesh of the fields
 };
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 template <std::size_t... I>
 double dispatch(Op op, double a, double b, double c, std::index_sequence<I...>) {
   using Function = double (*)(double, double, double);
-  static constexpr Function functions[] = {&apply<static_cast<Op>(I)>...};
+  static constexpr Function functions[] = {&apply<static_cast<Op>(I), double>...};
   return functions[static_cast<std::size_t>(op)](a, b, c);
 }
 

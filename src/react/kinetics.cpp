@@ -137,10 +137,38 @@ void Kinetics::run(const Program& program, SpeciesValues u, double t, std::size_
   assert(u.size() == species_count() && end <= size_);
   std::vector<const double*> inputs(u.begin(), u.end());
   for (const std::size_t field : program.fields) inputs.push_back(fields_[field].data());
-  std::vector<double> scalars;
-  if (!program.time_expressions.empty())
-    scalars = evaluate(graph_, program.time_expressions, [t](const Symbol&) { return t; });
-  program.tape.run(inputs, scalars, begin, end, out);
+  program.tape.run(inputs, scalars(program, t), begin, end, out);
+}
+
+std::vector<double> Kinetics::scalars(const Program& program, double t) const {
+  if (program.time_expressions.empty()) return {};
+  return evaluate(graph_, program.time_expressions, [t](const Symbol&) { return t; });
+}
+
+std::vector<float> Kinetics::float_scalars(double t) const {
+  const std::vector<double> values = scalars(rates_, t);
+  return {values.begin(), values.end()};
+}
+
+const std::vector<std::vector<float>>& Kinetics::float_fields() const {
+  std::call_once(float_fields_->once, [&] {
+    for (const std::size_t k : rates_.fields) float_fields_->fields.emplace_back(fields_[k].begin(), fields_[k].end());
+  });
+  return float_fields_->fields;
+}
+
+void Kinetics::rates(std::span<const float* const> u, std::span<const float> scalars, std::size_t first,
+                     std::size_t count, std::span<float* const> out) const {
+  assert(u.size() == species_count() && first + count <= size_);
+  std::array<const float*, 16> few;  // an allocation would cost as much as a block of samples
+  std::vector<const float*> many;
+  const auto& fields = float_fields();
+  const std::size_t inputs = u.size() + fields.size();
+  if (inputs > few.size()) many.resize(inputs);
+  const float** in = many.empty() ? few.data() : many.data();
+  std::ranges::copy(u, in);
+  for (std::size_t k = 0; k < fields.size(); ++k) in[u.size() + k] = fields[k].data() + first;
+  rates_.tape.run({in, inputs}, scalars, count, out);
 }
 
 void Kinetics::rates(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput out) const {

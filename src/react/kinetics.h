@@ -3,6 +3,8 @@
 
 #include <array>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,6 +51,12 @@ class Kinetics {
 
   /// R of every species.
   void rates(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput out) const;
+  /// R in single precision, for `count` samples from number `first` on, to which u[s][0] and out[s][0] belong.
+  /// `scalars`: float_scalars(t).
+  void rates(std::span<const float* const> u, std::span<const float> scalars, std::size_t first, std::size_t count,
+             std::span<float* const> out) const;
+  /// The parts of the rates that depend on the time alone.
+  std::vector<float> float_scalars(double t) const;
   /// C2 and C3 of every species: R = C2 u + C3 with u clamped.
   void split(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput c2, SpeciesOutput c3) const;
   /// dR_i / du_j at out[i * species_count() + j], at the clamped concentrations.
@@ -77,6 +85,15 @@ class Kinetics {
   void run(const Program& program, SpeciesValues u, double t, std::size_t begin, std::size_t end,
            SpeciesOutput out) const;
 
+  /// What the rates read of fields_, in single precision: made when it is first asked for.
+  struct FloatFields {
+    std::once_flag once;
+    std::vector<std::vector<float>> fields;
+  };
+  const std::vector<std::vector<float>>& float_fields() const;
+  std::vector<double> scalars(const Program& program, double t) const;
+
+  std::shared_ptr<FloatFields> float_fields_ = std::make_shared<FloatFields>();
   std::size_t size_ = 0;
   Graph graph_;
   std::vector<std::vector<double>> fields_;   ///< expressions of the place alone, one value per sample

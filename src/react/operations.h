@@ -68,8 +68,8 @@ constexpr bool is_commutative(Op op) { return op == Op::add || op == Op::multipl
 
 /// The value of one operation. IEEE rules: never traps; min and max pass on a NaN in their first operand, so
 /// that max(u, 0) does not hide a blow-up.
-template <Op op>
-double apply([[maybe_unused]] double a, [[maybe_unused]] double b, [[maybe_unused]] double c) {
+template <Op op, class T>
+T apply([[maybe_unused]] T a, [[maybe_unused]] T b, [[maybe_unused]] T c) {
   if constexpr (op == Op::add) return a + b;
   if constexpr (op == Op::subtract) return a - b;
   if constexpr (op == Op::multiply) return a * b;
@@ -88,14 +88,14 @@ double apply([[maybe_unused]] double a, [[maybe_unused]] double b, [[maybe_unuse
   if constexpr (op == Op::cosine) return std::cos(a);
   if constexpr (op == Op::tangent) return std::tan(a);
   if constexpr (op == Op::hyperbolic_tangent) return std::tanh(a);
-  if constexpr (op == Op::less) return a < b ? 1.0 : 0.0;
-  if constexpr (op == Op::less_equal) return a <= b ? 1.0 : 0.0;
-  if constexpr (op == Op::equal) return a == b ? 1.0 : 0.0;
-  if constexpr (op == Op::logical_and) return ((a != 0) & (b != 0)) ? 1.0 : 0.0;
-  if constexpr (op == Op::logical_or) return ((a != 0) | (b != 0)) ? 1.0 : 0.0;
-  if constexpr (op == Op::logical_not) return a == 0 ? 1.0 : 0.0;
+  if constexpr (op == Op::less) return a < b ? T{1} : T{0};
+  if constexpr (op == Op::less_equal) return a <= b ? T{1} : T{0};
+  if constexpr (op == Op::equal) return a == b ? T{1} : T{0};
+  if constexpr (op == Op::logical_and) return ((a != 0) & (b != 0)) ? T{1} : T{0};
+  if constexpr (op == Op::logical_or) return ((a != 0) | (b != 0)) ? T{1} : T{0};
+  if constexpr (op == Op::logical_not) return a == 0 ? T{1} : T{0};
   if constexpr (op == Op::select) return a != 0 ? b : c;
-  return std::numeric_limits<double>::quiet_NaN();  // constants and symbols have no operands
+  return std::numeric_limits<T>::quiet_NaN();  // constants and symbols have no operands
 }
 
 /// The same for an operation known at run time.

@@ -15,6 +15,20 @@ namespace {
 // nanoseconds) is spread over enough samples to vanish.
 constexpr std::size_t block_size = 256;
 
+/// Memory for `count` things, on the stack if they are few: a run of one block takes less time than an allocation.
+template <class T, std::size_t few>
+class Scratch {
+ public:
+  explicit Scratch(std::size_t count) {
+    if (count > few) many_ = std::make_unique_for_overwrite<T[]>(count);
+  }
+  T* data() { return many_ ? many_.get() : few_; }
+
+ private:
+  alignas(64) T few_[few];
+  std::unique_ptr<T[]> many_;
+};
+
 }  // namespace
 
 /// Chooses the order of the instructions and the registers.
@@ -176,18 +190,20 @@ class TapeBuilder {
         if (step.in[k].is_scalar()) mask |= 1u << k;
         instruction.in[k] = address(step.in[k]);
       }
-      instruction.kernel = step.fused_operand ? fused_kernel(step.inner, step.op, *step.fused_operand == 1, mask)
-                                              : tape_kernel(step.op, mask);
+      instruction.kernel = static_cast<std::uint32_t>(
+          step.fused_operand ? fused_kernel(step.inner, step.op, *step.fused_operand == 1, mask)
+                             : tape_kernel(step.op, mask));
       instruction.out = address(step.out);
       tape_.instructions_.push_back(instruction);
     }
     for (const Copy& copy : copies_) {
       Tape::Instruction instruction;
-      instruction.kernel = copy_kernel(copy.from.is_scalar());
+      instruction.kernel = static_cast<std::uint32_t>(copy_kernel(copy.from.is_scalar()));
       instruction.in[0] = address(copy.from);
       instruction.out = address(copy.to);
       tape_.instructions_.push_back(instruction);
     }
+    tape_.float_constants_.assign(tape_.constants_.begin(), tape_.constants_.end());
   }
 
   const Graph& graph_;
@@ -208,26 +224,38 @@ Tape::Tape(const Graph& graph, std::span<const NodeId> roots, std::span<const No
   TapeBuilder(graph, roots, inputs, scalars, *this).build(roots);
 }
 
-void Tape::run(std::span<const double* const> inputs, std::span<const double> scalars, std::size_t begin,
-               std::size_t end, std::span<double* const> out) const {
+template <class T, class Kernels>
+void Tape::execute(Kernels kernels, const std::vector<T>& constants, std::span<const T* const> inputs,
+                   std::span<const T> scalars, std::size_t begin, std::size_t end, std::span<T* const> out) const {
   assert(inputs.size() == input_count_ && scalars.size() == scalar_count_ && out.size() == output_count_);
-  const auto registers = std::make_unique_for_overwrite<double[]>(register_count_ * block_size);
-  // The table of pointers is written for double*, because registers and outputs are written through it.
-  std::vector<double*> table;
-  table.reserve(register_count_ + input_count_ + output_count_ + scalar_count_ + constants_.size());
-  for (std::size_t k = 0; k < register_count_; ++k) table.push_back(registers.get() + k * block_size);
-  for (const double* input : inputs) table.push_back(const_cast<double*>(input) + begin);
-  for (double* output : out) table.push_back(output + begin);
-  for (const double& scalar : scalars) table.push_back(const_cast<double*>(&scalar));
-  for (const double& constant : constants_) table.push_back(const_cast<double*>(&constant));
+  Scratch<T, 12 * block_size> registers(register_count_ * block_size);
+  // The table of pointers is written for T*, because registers and outputs are written through it.
+  Scratch<T*, 64> pointers(register_count_ + input_count_ + output_count_ + scalar_count_ + constants.size());
+  T** const table = pointers.data();
+  T** next = table;
+  for (std::size_t k = 0; k < register_count_; ++k) *next++ = registers.data() + k * block_size;
+  for (const T* input : inputs) *next++ = const_cast<T*>(input) + begin;
+  for (T* output : out) *next++ = output + begin;
+  for (const T& scalar : scalars) *next++ = const_cast<T*>(&scalar);
+  for (const T& constant : constants) *next++ = const_cast<T*>(&constant);
 
-  const auto moving = std::span(table).subspan(register_count_, input_count_ + output_count_);
+  const std::span moving(table + register_count_, input_count_ + output_count_);
   for (std::size_t block = begin; block < end; block += block_size) {
     const std::size_t count = std::min(block_size, end - block);
     for (const Instruction& i : instructions_)
-      i.kernel(table[i.in[0]], table[i.in[1]], table[i.in[2]], table[i.out], count);
-    for (double*& pointer : moving) pointer += count;
+      kernels[i.kernel](table[i.in[0]], table[i.in[1]], table[i.in[2]], table[i.out], count);
+    for (T*& pointer : moving) pointer += count;
   }
+}
+
+void Tape::run(std::span<const double* const> inputs, std::span<const double> scalars, std::size_t begin,
+               std::size_t end, std::span<double* const> out) const {
+  execute<double>(double_kernels(), constants_, inputs, scalars, begin, end, out);
+}
+
+void Tape::run(std::span<const float* const> inputs, std::span<const float> scalars, std::size_t count,
+               std::span<float* const> out, InstructionSet set) const {
+  execute<float>(float_kernels(set), float_constants_, inputs, scalars, 0, count, out);
 }
 
 }  // namespace pelage

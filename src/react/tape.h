@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/instruction_set.h"
 #include "react/expression.h"
 
 namespace pelage {
@@ -26,20 +27,28 @@ class Tape {
   void run(std::span<const double* const> inputs, std::span<const double> scalars, std::size_t begin, std::size_t end,
            std::span<double* const> out) const;
 
+  /// The same in single precision for samples [0, count).
+  void run(std::span<const float* const> inputs, std::span<const float> scalars, std::size_t count,
+           std::span<float* const> out, InstructionSet set = best_instruction_set()) const;
+
   std::size_t instruction_count() const { return instructions_.size(); }
   std::size_t register_count() const { return register_count_; }
 
  private:
   friend class TapeBuilder;
-  using Kernel = void (*)(const double* a, const double* b, const double* c, double* out, std::size_t count);
   struct Instruction {
-    Kernel kernel = nullptr;
-    std::uint32_t out = 0;  ///< places of the operands and of the result in the table of pointers, which holds
+    std::uint32_t kernel = 0;  ///< number, see react/tape_kernels.h
+    std::uint32_t out = 0;     ///< places of the operands and of the result in the table of pointers, which holds
     std::uint32_t in[3] = {0, 0, 0};  ///< registers, then inputs, outputs, scalars, constants
   };
 
+  template <class T, class Kernels>
+  void execute(Kernels kernels, const std::vector<T>& constants, std::span<const T* const> inputs,
+               std::span<const T> scalars, std::size_t begin, std::size_t end, std::span<T* const> out) const;
+
   std::size_t register_count_ = 0, input_count_ = 0, output_count_ = 0, scalar_count_ = 0;
   std::vector<double> constants_;
+  std::vector<float> float_constants_;
   std::vector<Instruction> instructions_;
 };
 

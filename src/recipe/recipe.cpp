@@ -223,6 +223,7 @@ Recipe parse_recipe(const std::string& text, const std::string& file) {
   recipe.name = document.string_or("name", file);
   recipe.summary = document.string_or("summary", "");
   recipe.shape = document.string_or("shape", "");
+  read_text(document, "quality", recipe.quality);
   if (const Value* textures = document.find("texture")) recipe.textures = read_texture_files(*textures);
   recipe.stages = read_stages(document.at("stage"));
   if (const Value* motion = document.find("motion")) recipe.motion = read_motion(*motion);

@@ -49,17 +49,9 @@ std::vector<Point> directions(const TriangleMesh& shape, const std::optional<Fie
 }  // namespace
 
 std::vector<Tensor> vertex_lines(const TriangleMesh& shape, const std::optional<FieldWish>& wish,
-                                 const Hierarchy& hierarchy) {
-  constexpr std::size_t components = 6;
-  std::vector<double> values;
-  for (const Point& d : directions(shape, wish, hierarchy.topology(0))) {
-    const Tensor t = line_tensor(d);
-    values.insert(values.end(), t.begin(), t.end());
-  }
-  values = hierarchy.interpolated(std::move(values), components, 0, hierarchy.finest());
-  std::vector<Tensor> lines(values.size() / components);
-  for (std::size_t v = 0; v < lines.size(); ++v)
-    for (std::size_t k = 0; k < components; ++k) lines[v][k] = values[components * v + k];
+                                 const Topology& topology) {
+  std::vector<Tensor> lines;
+  for (const Point& d : directions(shape, wish, topology)) lines.push_back(line_tensor(d));
   return lines;
 }
 

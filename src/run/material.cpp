@@ -14,28 +14,13 @@ bool reads(const std::vector<Symbol>& symbols, Symbol::Kind kind) {
   return std::ranges::any_of(symbols, [&](const Symbol& s) { return s.kind == kind; });
 }
 
-/// What the textures that the stage reads say at the finest vertices, uv being linear over the triangles of the shape.
-VertexAttributes textures_at_nodes(const Program& program, const std::vector<Symbol>& symbols,
-                                   const Hierarchy& hierarchy) {
-  const std::vector<Texture> read = textures_read(symbols, program.textures);
-  if (read.empty()) return {};
-  Attribute uv = *program.shape->find("uv");
-  hierarchy.interpolate(uv, 0, hierarchy.finest());
-  const Topology& fine = hierarchy.topology(hierarchy.finest());
-  VertexAttributes values;
-  for (const Texture& texture : read)
-    values.merge(texture_attributes(texture, fine.triangles, static_cast<std::size_t>(fine.vertex_count), uv));
-  return values;
-}
-
-VertexAttributes attributes_of_mesh(const Program& program, const std::vector<Symbol>& symbols,
-                                    const Hierarchy& hierarchy) {
+VertexAttributes attributes_of_mesh(const Program& program, const std::vector<Symbol>& symbols, const World& world) {
   const VertexAttributes all = scalar_attributes(program.shape->attributes);
   VertexAttributes read;
   for (const Symbol& s : symbols)
     if (const auto found = all.find(s.name); s.kind == Symbol::Kind::attribute && found != all.end())
-      read[s.name] = hierarchy.interpolated(found->second, 1, 0, hierarchy.finest());
-  read.merge(textures_at_nodes(program, symbols, hierarchy));
+      read[s.name] = world.at_nodes(found->second);
+  for (const Texture& texture : textures_read(symbols, program.textures)) read.merge(world.at_nodes(texture));
   return read;
 }
 
@@ -43,7 +28,7 @@ VertexAttributes attributes_at_nodes(const Program& program, const StageProgram&
                                      const VertexAttributes& fields) {
   const std::vector<Symbol> symbols = place_symbols(stage.model);
   VertexAttributes attributes;
-  if (world.hierarchy()) attributes = attributes_of_mesh(program, symbols, *world.hierarchy());
+  if (world.hierarchy()) attributes = attributes_of_mesh(program, symbols, world);
   for (const Symbol& s : symbols) {
     if (s.kind != Symbol::Kind::attribute) continue;
     if (const auto field = fields.find(s.name); field != fields.end()) attributes.insert(*field);
@@ -142,7 +127,8 @@ Material make_material(const Program& program, const StageProgram& stage, const 
   if (has_own_stiffness(stage.model) || stage.stepper->samples == SampleRule::quadrature)
     material.at_quadrature_points.drawn = drawn_once(world, stage, SampleRule::quadrature);
   if (stage.model.anisotropic() && world.hierarchy())
-    material.lines = vertex_lines(shape_now(program, world), stage.directions, *world.hierarchy());
+    material.lines =
+        world.at_nodes(vertex_lines(shape_now(program, world), stage.directions, world.hierarchy()->topology(0)));
   if (stage.model.held()) add_mask(stage, space, material);
   return material;
 }

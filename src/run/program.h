@@ -50,8 +50,10 @@ struct Program {
   std::shared_ptr<const TriangleMesh> shape;  ///< repaired control mesh; null where a run is given its space
   std::vector<Texture> textures;              ///< laid on the shape by its "uv"
   const Method* method = &loop_method;
-  bool interpolate = false;  ///< the surface goes through the vertices of the shape
-  double edge = 0;           ///< longest edge at the start [world units]
+  bool interpolate = false;   ///< the surface goes through the vertices of the shape
+  double edge = 0;            ///< longest edge at the start [world units]
+  std::vector<double> edges;  ///< the same at every vertex of the shape, where sizes differ; empty: `edge` everywhere
+  double step_error = 1;      ///< factor on the local error that adaptive steppers keep
   SurfaceMotion motion;
   std::vector<StageProgram> stages;   ///< at least one
   std::vector<std::string> warnings;  ///< what was done otherwise than asked, each in one line

@@ -18,9 +18,6 @@ namespace pelage {
 
 namespace {
 
-/// Local error per step, relative to the size of the fields, that the adaptive step keeps: spacing and look of finished
-/// patterns do not change with it from 1e-2 down.
-constexpr double step_tolerance = 1e-2;
 /// Steps change by this factor, so that matrices and their factors are seldom refilled.
 constexpr double step_factor = std::numbers::sqrt2;
 /// A start well inside the stable range of every shipped model.
@@ -43,6 +40,23 @@ constexpr double amount_tolerance = 1e-12;
 double find_stable_step(const StageProgram& p, const System& system, const SparseMatrix& stiffness) {
   if (p.stepper->adaptive) return std::numeric_limits<double>::infinity();
   return largest_stable_step(p.model, *p.stepper, largest_k2(*system.mass, stiffness) * p.length_unit * p.length_unit);
+}
+
+/// Where the error does not see the limit of stability before it is passed, the step stays below the model's
+/// suggestion. Others may settle on long steps, but not on so few that the end of the run is seen by chance.
+double longest_step(const StageProgram& p) {
+  constexpr double fewest_steps = 50;
+  return p.stepper->any_step ? std::max(p.suggested_step, p.until / fewest_steps) : p.suggested_step;
+}
+
+/// After an accepted step. The estimate of the error grows with the third power of the step.
+double next_adaptive_step(const StageProgram& p, double tolerance, double step, double error) {
+  if (p.stepper->any_step) {
+    constexpr double safety = 0.8, most = 2;
+    return std::min(step * std::clamp(safety * std::cbrt(tolerance / error), 1 / most, most), longest_step(p));
+  }
+  const double room = step_factor * step_factor * step_factor * 1.2;
+  return error * room < tolerance ? std::min(step * step_factor, longest_step(p)) : step;
 }
 
 double first_step(const StageProgram& p, double stable_step) {
@@ -168,8 +182,7 @@ double Run::fraction() const {
   return (static_cast<double>(stage_) + std::min(1.0, fraction)) / static_cast<double>(program_->stages.size());
 }
 
-/// The error does not see the limit of stability before it is passed, so that the step stays below the model's
-/// suggestion. The last step is cut to end on time; a rest below a thousandth of a step is joined to it.
+/// The last step is cut to end on time; a rest below a thousandth of a step is joined to it.
 double Run::next_step() const {
   const double rest = stage_program().until - now_->state.time;
   return rest < now_->step * 1.001 ? rest : now_->step;
@@ -185,7 +198,7 @@ const RunSummary& Run::advance(std::int64_t steps) {
     follow_surface(now_->state.time + next_step());
     now_->equations.update(now_->state);
     StepRequest request{.dt = next_step(), .solver_tolerance = solver_tolerance};
-    if (p.adaptive()) request.largest_error = step_tolerance;
+    if (p.adaptive()) request.largest_error = step_tolerance();
     const StepReport report = now_->stepper->step(system(), now_->state, request);
     now_->summary.iterations += report.iterations;
     if (report.accepted) {
@@ -245,6 +258,9 @@ std::vector<double> Run::amounts() const {
   return amounts;
 }
 
+/// Relative to the size of the fields. Spacing and look of finished patterns do not change with less.
+double Run::step_tolerance() const { return program_->step_error * stage_program().stepper->tolerance; }
+
 void Run::accept(const StepReport& report, double dt) {
   RunSummary& summary = now_->summary;
   summary.time = now_->state.time;
@@ -253,11 +269,9 @@ void Run::accept(const StepReport& report, double dt) {
   summary.maximum = report.maximum;
   // A step that the end cuts short divides what the solver leaves by little time.
   if (2 * dt >= now_->step || now_->state.step == 1) summary.change = report.change;
-  // The estimate grows with the third power of the step.
-  const double room = step_factor * step_factor * step_factor * 1.2;
   const StageProgram& p = stage_program();
-  if (p.adaptive() && now_->state.past.size() > 1 && report.error * room < step_tolerance)
-    now_->step = std::min(now_->step * step_factor, p.suggested_step);
+  if (p.adaptive() && now_->state.step > 1)
+    now_->step = next_adaptive_step(p, step_tolerance(), now_->step, report.error);
   summary.step = now_->step;
   check_stop(p, world_, *now_);
 }
@@ -327,6 +341,8 @@ CoatFields Run::fields() const {
   f.hierarchy = world_.hierarchy();
   f.method = program_->method;
   f.space = world_.shared_space();
+  f.mesh = world_.mesh();
+  f.control = world_.control();
   f.initial_control = world_.initial_control();
   f.length_unit = stage_program().length_unit;
   f.seed = stage_program().seed;

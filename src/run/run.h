@@ -77,6 +77,7 @@ class Run {
   Snapshot read_snapshot(const std::string& bytes) const;
   bool fits(const Snapshot& snapshot) const;
   double next_step() const;
+  double step_tolerance() const;
   void follow_surface(double time);
   void keep_amounts(const SparseMatrix& mass_before);
   void accept(const StepReport& report, double dt);

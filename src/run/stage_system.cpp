@@ -83,6 +83,12 @@ void StageSystem::add_reaction() {
                                                   const MutableFieldPointers& rate) {
     kinetics->rates(u, t, begin, end, rate);
   };
+  system_.reaction.float_rates = [kinetics = kinetics_](double t) -> FloatRates {
+    return [kinetics, scalars = kinetics->float_scalars(t)](std::span<const float* const> u, std::size_t first,
+                                                            std::size_t count, std::span<float* const> rate) {
+      kinetics->rates(u, scalars, first, count, rate);
+    };
+  };
   system_.reaction.split = [kinetics = kinetics_](const FieldPointers& u, double t, std::size_t begin, std::size_t end,
                                                   const MutableFieldPointers& c2, const MutableFieldPointers& c3) {
     kinetics->split(u, t, begin, end, c2, c3);

@@ -20,9 +20,44 @@ World::World(std::shared_ptr<const Program> program, const Progress& progress) :
       std::make_shared<Hierarchy>(make_topology(shape.points.size(), shape.triangles), program_->method->refine);
   hierarchy_ = hierarchy;
   std::vector<Point> control = coarse_control(shape.points);
+  const Method& method = *program_->method;
+  if (method.own_mesh) {
+    report(progress, "meshing", 0.1);
+    mesh_ = std::make_shared<const SimulationMesh>(
+        *hierarchy, control, SimulationMesh::Edge{program_->edge, program_->edges}, max_triangles);
+    space_ = method.make_space(mesh_->shared_topology(), mesh_->points(control));
+    control_ = std::move(control);
+    return;
+  }
   refine_to_edge(*hierarchy, control, program_->edge, max_triangles);
   report(progress, "tabulating basis functions", 0.2);
-  space_ = program_->method->make_space(hierarchy_->shared_topology(levels()), std::move(control));
+  space_ = method.make_space(hierarchy_->shared_topology(levels()), std::move(control));
+}
+
+std::vector<double> World::at_nodes(std::vector<double> given, std::size_t components) const {
+  return mesh_ ? mesh_->values(given, components)
+               : hierarchy_->interpolated(std::move(given), components, 0, hierarchy_->finest());
+}
+
+std::vector<Tensor> World::at_nodes(const std::vector<Tensor>& given) const {
+  constexpr std::size_t components = 6;
+  std::vector<double> values;
+  for (const Tensor& t : given) values.insert(values.end(), t.begin(), t.end());
+  values = at_nodes(std::move(values), components);
+  std::vector<Tensor> result(values.size() / components);
+  for (std::size_t v = 0; v < result.size(); ++v)
+    for (std::size_t k = 0; k < components; ++k) result[v][k] = values[components * v + k];
+  return result;
+}
+
+VertexAttributes World::at_nodes(const Texture& texture) const {
+  const Attribute& given = *program_->shape->find("uv");
+  Attribute uv = given;
+  if (mesh_)
+    uv = mesh_->values(given);
+  else
+    hierarchy_->interpolate(uv, 0, levels());
+  return texture_attributes(texture, topology().triangles, static_cast<std::size_t>(space_->unknowns()), uv);
 }
 
 std::vector<Point> World::coarse_control(std::vector<Point> points) const {
@@ -31,9 +66,11 @@ std::vector<Point> World::coarse_control(std::vector<Point> points) const {
 }
 
 World World::unmoved() const {
-  World copy(initial_control_.empty() ? space_ : space_->moved(initial_control_));
+  World copy(initial_control_.empty() ? space_ : space_->moved(space_control(initial_control_)));
   copy.program_ = program_;
   copy.hierarchy_ = hierarchy_;
+  copy.mesh_ = mesh_;
+  copy.control_ = initial_control_.empty() || !mesh_ ? control_ : initial_control_;
   if (surface_) copy.surface_ = std::make_unique<MovingSurface>(*program_->shape, program_->motion);
   return copy;
 }
@@ -43,7 +80,7 @@ const std::vector<Point>& World::points() const {
 }
 
 std::vector<Point> World::initial_positions(SampleRule rule) const {
-  const auto space = initial_control_.empty() ? space_ : space_->moved(initial_control_);
+  const auto space = initial_control_.empty() ? space_ : space_->moved(space_control(initial_control_));
   return space->geometry(rule, false).position;
 }
 
@@ -54,9 +91,11 @@ bool World::follow(std::int64_t steps, double time) {
 }
 
 void World::place(std::vector<Point> points) {
-  if (initial_control_.empty()) initial_control_ = space_->control();
+  if (initial_control_.empty()) initial_control_ = control();
   points_ = std::move(points);
-  space_ = space_->moved(hierarchy_->refined(coarse_control(points_), 0, levels()));
+  std::vector<Point> control = hierarchy_->refined(coarse_control(points_), 0, levels());
+  space_ = space_->moved(space_control(control));
+  if (mesh_) control_ = std::move(control);
 }
 
 void World::restore(MovingSurface::State state) {

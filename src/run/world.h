@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "discretise/simulation_mesh.h"
 #include "pelage/progress.h"
 #include "run/moving_surface.h"
 #include "run/program.h"
@@ -24,6 +25,16 @@ class World {
   /// Null without a mesh.
   const std::shared_ptr<const Hierarchy>& hierarchy() const { return hierarchy_; }
   int levels() const { return hierarchy_ ? hierarchy_->finest() : 0; }
+  /// Triangles between the nodes of the space.
+  const Topology& topology() const { return mesh_ ? *mesh_->shared_topology() : hierarchy_->topology(levels()); }
+  /// Null where the nodes of the space are the vertices of the finest level.
+  const std::shared_ptr<const SimulationMesh>& mesh() const { return mesh_; }
+  /// Control points at the finest level now [world units].
+  const std::vector<Point>& control() const { return mesh_ ? control_ : space_->control(); }
+  /// What is given at the vertices or corners of the shape at the nodes of the space: linear over its triangles.
+  std::vector<double> at_nodes(std::vector<double> at_vertices, std::size_t components = 1) const;
+  std::vector<Tensor> at_nodes(const std::vector<Tensor>& at_vertices) const;
+  VertexAttributes at_nodes(const Texture& texture) const;
 
   /// Null when the surface stays where it is.
   const MovingSurface* surface() const { return surface_.get(); }
@@ -44,9 +55,15 @@ class World {
 
  private:
   std::vector<Point> coarse_control(std::vector<Point> points) const;
+  /// What makes the space, of control points at the finest level.
+  std::vector<Point> space_control(const std::vector<Point>& control) const {
+    return mesh_ ? mesh_->points(control) : control;
+  }
 
   std::shared_ptr<const Program> program_;
   std::shared_ptr<const Hierarchy> hierarchy_;
+  std::shared_ptr<const SimulationMesh> mesh_;
+  std::vector<Point> control_;  ///< with a simulation mesh
   std::unique_ptr<MovingSurface> surface_;
   std::shared_ptr<const Space> space_;
   // Of a surface that has moved:

@@ -23,7 +23,7 @@ class ForwardEuler final : public Stepper {
       if (species.algebraic) continue;
       StepMatrix& mass = species.mass ? own_mass_[i] : mass_;
       mass.update(mass_of(system, i), 1, species.stiffness, 0);
-      rhs_ = system.sampling->transposed * Vector(weight_of(system, i).cwiseProduct(rates_[i]));
+      rhs_ = system.sampling->test * Vector(weight_of(system, i).cwiseProduct(rates_[i]));
       if (species.coupled) {
         subtract_fluxes(system, state, i);
       } else {

@@ -34,8 +34,13 @@ class Sbdf2 final : public Stepper {
 
   std::vector<StepMatrix> matrices_;
   CoupledSolver coupled_;
+  void sample(const System& system, const State& state);
+
   std::vector<Vector> samples_, samples_before_, rates_, rates_before_, next_;
   Vector combined_, rhs_;
+  // What samples_ are of.
+  std::shared_ptr<const Sampling> sampled_by_;
+  std::int64_t sampled_at_ = -1;
 };
 
 /// Sum of the squares of a field that is negligible.
@@ -60,7 +65,7 @@ void Sbdf2::right_hand_side(const System& system, const Scheme& s, std::size_t i
       combined_[k] = weight[k] * sum;
     }
   });
-  apply(system.sampling->transposed, combined_, rhs_);
+  apply(system.sampling->test, combined_, rhs_);
 }
 
 /// The first two steps have no third derivative to go by. The local error of Euler's method, dt^2 u''/2, is about the
@@ -152,15 +157,25 @@ void Sbdf2::solve_coupled(const System& system, const State& state, const Scheme
   for (std::size_t k = 0; k < c.index.size(); ++k) next_[c.index[k]] = std::move(x[k]);
 }
 
+/// Fields at the samples, now and before; those of the step before are known, unless the surface has moved since.
+void Sbdf2::sample(const System& system, const State& state) {
+  const bool still = sampled_by_ == system.sampling;
+  if (still && sampled_at_ == state.step) return;
+  if (still && sampled_at_ + 1 == state.step)
+    std::swap(samples_, samples_before_);
+  else if (!state.past.empty())
+    sample_fields(system, state.past[0], samples_before_);
+  sample_fields(system, state.now, samples_);
+  sampled_by_ = system.sampling;
+  sampled_at_ = state.step;
+}
+
 StepReport Sbdf2::step(const System& system, State& state, const StepRequest& request) {
   const double dt = request.dt;
   const Scheme s = scheme(state, dt);
-  sample_fields(system, state.now, samples_);
+  sample(system, state);
   evaluate_rates(system, samples_, state.time, rates_);
-  if (!state.past.empty()) {
-    sample_fields(system, state.past[0], samples_before_);
-    rates_before_ = state.past_rates;
-  }
+  if (!state.past.empty()) rates_before_ = state.past_rates;
   StepReport report;
   matrices_.resize(system.species.size());
   next_.resize(system.species.size());
@@ -209,6 +224,8 @@ constexpr StepperKind sbdf2 = {.name = "sbdf2",
                                .couples = true,
                                .holds = true,
                                .keeps_rates = true,
-                               .amplification = amplification};
+                               .amplification = amplification,
+                               .tolerance = 1e-2,
+                               .dilutes = true};
 
 }  // namespace pelage

@@ -55,7 +55,7 @@ bool stable(const Linearisation& l, const StepperKind& stepper, double dt, doubl
 
 double largest_stable_step(const Model& model, const StepperKind& stepper, double largest_k2) {
   const Stability s = analyse(model);
-  if (s.steady_states.empty()) return std::numeric_limits<double>::infinity();
+  if (stepper.any_step || s.steady_states.empty()) return std::numeric_limits<double>::infinity();
   const auto n = static_cast<Eigen::Index>(model.species_count());
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Linearisation l;

@@ -48,6 +48,10 @@ struct StepperKind {
   bool holds;          ///< heeds System::held
   bool keeps_rates;    ///< State::past_rates
   Amplification* amplification;  ///< of a wave, see time/linearisation.h
+  double tolerance = 0;          ///< of adaptive ones: error per step that pictures do not show
+  bool any_step = false;         ///< stable at every step: its error estimate alone limits the step
+  bool dilutes = false;          ///< of second order where amounts ride along with a surface that grows
+  bool nodal = false;            ///< only for systems whose unknowns are the values at the samples
 };
 
 extern const StepperKind sbdf2;           ///< second-order semi-implicit backward differences, variable step (Ruuth
@@ -55,6 +59,8 @@ extern const StepperKind sbdf2;           ///< second-order semi-implicit backwa
 extern const StepperKind semi_implicit;   ///< semi-implicit Euler, eqs. (14)-(15) of Bajaj, Zhang, Xu 2008: reaction
                                           ///< split as C2(u^n) u^(n+1) + C3(u^n), first order
 extern const StepperKind explicit_euler;  ///< forward Euler
+extern const StepperKind rkc2;  ///< second-order stabilised explicit Runge-Kutta-Chebyshev, in single precision
+                                ///< (Sommeijer, Shampine, Verwer 1997)
 
 /// Those that come with the program, the default first.
 std::span<const StepperKind* const> stepper_kinds();

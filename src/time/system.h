@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,12 +21,19 @@ namespace pelage {
 using FieldPointers = std::vector<const double*>;
 using MutableFieldPointers = std::vector<double*>;
 
+/// The reaction at one time in single precision, for `count` samples from number `first` on: u[i][k] and rate[i][k]
+/// belong to sample first + k. Called from several threads for disjoint ranges.
+using FloatRates = std::function<void(std::span<const float* const> u, std::size_t first, std::size_t count,
+                                      std::span<float* const> rate)>;
+
 /// The reaction at samples [begin, end) at time t; called from several threads for disjoint ranges.
 struct Reaction {
   /// rate[i][s] = R_i(u_s, t).
   std::function<void(const FieldPointers& u, double t, std::size_t begin, std::size_t end,
                      const MutableFieldPointers& rate)>
       rates;
+  /// `rates` at a time t in single precision; empty: steppers that compute in it convert those of `rates`.
+  std::function<FloatRates(double t)> float_rates;
   /// R_i = c2_i u_i + c3_i, the split of eq. (2) that the semi-implicit Euler scheme needs.
   std::function<void(const FieldPointers& u, double t, std::size_t begin, std::size_t end,
                      const MutableFieldPointers& c2, const MutableFieldPointers& c3)>

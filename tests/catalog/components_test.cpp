@@ -110,7 +110,7 @@ TEST(Components, OthersAreUnknown) {
     plan(small_recipe("loop", "midpoint"));
     FAIL();
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("known: sbdf2, semi-implicit, explicit"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("known: rkc2, sbdf2, semi-implicit, explicit"), std::string::npos)
         << error.what();
   }
 }

@@ -98,7 +98,7 @@ struct Cascade {
       if (!frozen[v]) outside.push_back(position[v]);
       if (!frozen[v] && in_spot[v]) dark.push_back(position[v]);
     }
-    for (const Spot& s : spots(run.world().hierarchy()->topology(run.world().levels()), position, in_spot, frozen))
+    for (const Spot& s : spots(run.world().topology(), position, in_spot, frozen))
       (s.large ? large : small).push_back(s.centre);
   }
 };
@@ -128,7 +128,8 @@ double angle_to_field(const pelage::Run& run, const TriangleMesh& shape) {
   const auto& space = dynamic_cast<const SurfaceSpace&>(run.space());
   const std::vector<double> zero(static_cast<std::size_t>(space.discretisation().first_point.back()), 0);
   const std::vector<double> one(zero.size(), 1);
-  const auto lines = vertex_lines(shape, run.stage_program().directions, *run.world().hierarchy());
+  const auto lines =
+      run.world().at_nodes(vertex_lines(shape, run.stage_program().directions, run.world().hierarchy()->topology(0)));
   const std::vector<Tensor> line = space.tensors(lines, {zero, one, zero});
   const Vector difference = run.coefficients()[1] - run.coefficients()[0];
   double angle = 0, weight = 0;
@@ -168,7 +169,7 @@ std::vector<double> heights_of_spots(double size, bool mapped) {
   std::vector<char> in_spot;
   for (const double value : b) in_spot.push_back(value < 3);
   std::vector<double> heights;
-  for (const Spot& s : spots(run.world().hierarchy()->topology(run.world().levels()), position, in_spot, in_spot))
+  for (const Spot& s : spots(run.world().topology(), position, in_spot, in_spot))
     heights.push_back(s.centre[2] / length(s.centre));
   return heights;
 }

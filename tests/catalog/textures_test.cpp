@@ -87,7 +87,7 @@ TEST_F(Textures, DriveParametersAndSizeAsTheSameValuesAtVerticesDo) {
   painted.set(flipped);
   const auto grown = [&](const std::string& attribute, const std::string& stepper) {
     Growth run(make_program(
-        recipe(with_texture("model = \"turing\"\nsize = 0.4\nstepper = \"" + stepper +
+        recipe(with_texture("model = \"turing\"\nsize = 0.4\nmethod = \"loop\"\nstepper = \"" + stepper +
                             "\"\nsize-map = \"1 + attribute(" + attribute +
                             ")\"\n[stage.parameters]\nDa = \"0.2 + 0.05*attribute(" + attribute + ")\"\n")),
         painted));

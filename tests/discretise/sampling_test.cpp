@@ -60,7 +60,7 @@ TEST(Sampling, SampledMassIsTheProduct) {
     for (const Sampling& sampling :
          {vertex_sampling(s.discretisation, s.control, s.mass), quadrature_sampling(s.discretisation, s.control)}) {
       const Eigen::MatrixXd a = dense(sampling.values);
-      EXPECT_EQ(dense(sampling.transposed), Eigen::MatrixXd(a.transpose()));
+      EXPECT_EQ(dense(sampling.test), Eigen::MatrixXd(a.transpose()));
       const Eigen::MatrixXd expected = a.transpose() * sampling.weight.asDiagonal() * a;
       const Eigen::MatrixXd mass = dense(sampled_mass(sampling, sampling.weight, s.mass.pattern));
       EXPECT_LT((mass - expected).cwiseAbs().maxCoeff(), 1e-14);

@@ -30,7 +30,7 @@ struct Refined {
 };
 
 class EveryMethod : public ::testing::TestWithParam<const Method*> {};
-INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, ::testing::ValuesIn(methods().begin(), methods().end()),
+INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, ::testing::Values(&loop_method, &linear_method),
                          [](const auto& method) { return std::string(method.param->name); });
 
 void expect_near(const Point& a, const Point& b, double tolerance) {

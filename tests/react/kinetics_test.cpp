@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "catalog/models.h"
+#include "react/place_values.h"
 #include "react/support.h"
 
 namespace pelage {
@@ -158,6 +159,48 @@ TEST(Kinetics, ThreadsAndSlicesDoNotMatter) {
   for (std::size_t begin = 0; begin < samples; begin += 333)
     kinetics.rates(in, 0.3, begin, std::min(begin + 333, samples), out);
   EXPECT_EQ(many, slices);
+}
+
+/// At states around the initial one, relative to the largest rate, which leaves room for terms that cancel.
+TEST(Kinetics, RatesOfEveryModelInSinglePrecisionAreThoseInDouble) {
+  const std::vector<Point> points = spiral();
+  std::vector<double> zero(points.size(), 0.1);
+  for (const ModelEntry& entry : model_list()) {
+    const Model model = compile(entry.source);
+    Places places{.positions = points, .normals = points, .k1 = zero, .k2 = zero, .mask = zero};
+    for (const Symbol& s : place_symbols(model))
+      if (s.kind == Symbol::Kind::attribute) places.attributes[s.name] = zero;
+    const Kinetics kinetics(model, places, 3);
+    const std::size_t n = kinetics.species_count();
+    std::vector<std::vector<double>> u(n, std::vector<double>(samples)), rate = u;
+    std::vector<std::vector<float>> single(n, std::vector<float>(samples)), single_rate = single;
+    std::vector<const double*> in;
+    std::vector<double*> out;
+    std::vector<const float*> single_in;
+    std::vector<float*> single_out;
+    for (std::size_t i = 0; i < n; ++i) {
+      kinetics.initial(i, u[i]);
+      for (std::size_t k = 0; k < samples; ++k) {
+        single[i][k] = static_cast<float>(u[i][k] * (1 + 0.2 * std::sin(0.1 * static_cast<double>(k + 7 * i))));
+        u[i][k] = single[i][k];
+      }
+      in.push_back(u[i].data());
+      out.push_back(rate[i].data());
+    }
+    constexpr std::size_t first = 321, count = 1000;
+    for (std::size_t i = 0; i < n; ++i) {
+      single_in.push_back(single[i].data() + first);
+      single_out.push_back(single_rate[i].data());
+    }
+    kinetics.rates(in, 0.7, 0, samples, out);
+    kinetics.rates(single_in, kinetics.float_scalars(0.7), first, count, single_out);
+    for (std::size_t i = 0; i < n; ++i) {
+      double largest = 0;
+      for (const double r : rate[i]) largest = std::max(largest, std::abs(r));
+      for (std::size_t k = 0; k < count; ++k)
+        ASSERT_NEAR(single_rate[i][k], rate[i][first + k], 2e-6 * largest + 1e-30) << entry.name << " species " << i;
+    }
+  }
 }
 
 }  // namespace

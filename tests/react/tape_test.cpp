@@ -135,6 +135,44 @@ TEST(Tape, EqualsRecursiveEvaluationOnRandomGraphs) {
   }
 }
 
+/// All instruction sets give the same bits, and those of arithmetic in float operation by operation.
+TEST(Tape, RunsInSinglePrecisionToo) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> number(0.2f, 2);
+  constexpr std::size_t samples = 700;
+  std::vector<float> x(samples), y(samples);
+  for (float& value : x) value = number(random);
+  for (float& value : y) value = number(random);
+  for (auto k = static_cast<int>(Op::add); k < static_cast<int>(Op::count); ++k) {
+    Graph graph;
+    const Symbols s = add_symbols(graph);
+    const auto op = static_cast<Op>(k);
+    const auto node = [&](NodeId a, NodeId b) {
+      return graph.make(op, a, arity(op) > 1 ? b : -1, arity(op) > 2 ? a : -1);
+    };
+    const std::vector<NodeId> roots = {node(s.x, s.y), node(graph.constant(0.75), s.y), node(s.x, s.t),
+                                       graph.make(Op::add, graph.make(Op::multiply, s.x, s.y), s.t)};
+    const Tape tape(graph, roots, std::vector{s.x, s.y}, std::vector{s.t});
+    std::vector<std::vector<float>> first;
+    for (const InstructionSet set : instruction_sets()) {
+      std::vector<std::vector<float>> out(roots.size(), std::vector<float>(samples));
+      std::vector<float*> to;
+      for (auto& values : out) to.push_back(values.data());
+      const float* from[] = {x.data(), y.data()};
+      tape.run(from, std::vector{1.25f}, samples, to, set);
+      if (first.empty()) first = out;
+      EXPECT_EQ(out, first) << k;
+    }
+    for (std::size_t i = 0; i < samples; ++i)
+      for (std::size_t r = 0; r < roots.size(); ++r) {
+        const double expected = recursive(graph, roots[r], {x[i], y[i], 1.25});
+        // modulo and floor jump, and cancellation is relative to the operands.
+        if (op == Op::floor || op == Op::modulo || op == Op::equal) continue;
+        ASSERT_NEAR(first[r][i], expected, 1e-6 * std::max(1.0, std::abs(expected))) << k << " root " << r;
+      }
+  }
+}
+
 TEST(Tape, SharesCommonSubexpressionsAndExpandsPowers) {
   Graph graph;
   const Symbols s = add_symbols(graph);

@@ -15,13 +15,14 @@ namespace {
 
 /// A run of one species that starts as `initial` and stays so.
 Run standing(const std::string& initial, TriangleMesh shape, const std::string& stepper = "sbdf2",
-             const std::string& diffusion = "0") {
+             const std::string& diffusion = "0", const std::string& method = "loop") {
   const auto path = std::filesystem::temp_directory_path() / "pelage_place_fields_test.toml";
   std::ofstream(path) << "name = 'standing'\ntitle = 't'\ncite = 'c'\nsummary = 's'\nwavelength = 1\n[species.u]\n"
                       << "diffusion = '" << diffusion << "'\nrate = '0'\ninitial = '" << initial << "'\n";
   Recipe recipe;
   recipe.stages[0].model.value = path.string();
   recipe.stages[0].stepper.value = stepper;
+  recipe.stages[0].method.value = method;
   recipe.stages[0].size = Given<Length>{{0.3, true}, {}};
   return Run(make_program(recipe, std::move(shape)));
 }
@@ -60,6 +61,16 @@ TEST(PlaceFields, GiveAttributesOfTheMeshToFormulas) {
     EXPECT_NEAR(u[static_cast<Eigen::Index>(i)], mesh.points[i][2], 1e-9);
   EXPECT_LE(u.cwiseAbs().maxCoeff(), 1 + 1e-9);
   EXPECT_LT((samples(same) - u).norm(), 1e-12);
+}
+
+TEST(PlaceFields, OfAMeshOfItsOwnAreThoseOfThePlace) {
+  const TriangleMesh mesh = with_height(builtin_shape("builtin:sphere?n=2562"));
+  const auto height = standing("attribute(height)", mesh, "sbdf2", "0", "remeshed");
+  const auto curved = standing("k1*k2 + 10*H", mesh, "sbdf2", "0", "remeshed");
+  const Vector u = samples(height), k = samples(curved);
+  const auto& position = height.system().sampling->position;
+  for (std::size_t i = 0; i < position.size(); ++i) EXPECT_NEAR(u[static_cast<Eigen::Index>(i)], position[i][2], 5e-3);
+  EXPECT_LT(std::sqrt((k.array() / 11 - 1).square().mean()), 0.03);
 }
 
 TEST(PlaceFields, GiveAttributesToDiffusionAndToThePapersScheme) {

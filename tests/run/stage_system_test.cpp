@@ -23,6 +23,7 @@ Run on_unit_sphere(const std::string& equation, const std::string& stepper, doub
                       << equation << "\n";
   Recipe recipe;
   recipe.stages[0].model.value = path.string();
+  recipe.stages[0].method.value = stepper_named(stepper).nodal ? "remeshed" : "loop";
   recipe.stages[0].stepper.value = stepper;
   recipe.stages[0].size = Given<Length>{{1.3, false}, {}};
   recipe.stages[0].step = step;
@@ -49,7 +50,8 @@ double decay(Run run) {
 }
 
 class EveryStepperWithCoefficients : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Steppers, EveryStepperWithCoefficients, ::testing::ValuesIn(stepper_names()),
+INSTANTIATE_TEST_SUITE_P(Steppers, EveryStepperWithCoefficients,
+                         ::testing::Values("rkc2", "sbdf2", "semi-implicit", "explicit"),
                          [](const auto& name) { return stepper_test_name(name); });
 
 TEST_P(EveryStepperWithCoefficients, TakesAPrefactorThatVariesAndVanishes) {

@@ -55,7 +55,8 @@ std::string message_of(const std::string& recipe) {
 
 /// One stage of pure diffusion from a step at the equator.
 std::string diffusion(const std::string& more) {
-  return "[stage]\nmodel = \"" + std::string(PELAGE_BINARY_DIR) + "/stage-diffusion.toml\"\nsize = 0.5\n" + more;
+  return "[stage]\nmodel = \"" + std::string(PELAGE_BINARY_DIR) +
+         "/stage-diffusion.toml\"\nmethod = \"loop\"\nsize = 0.5\n" + more;
 }
 
 class DiffusionModel : public ::testing::Test {
@@ -271,7 +272,7 @@ TEST(Directions, OfAStageFollowAxisGradientAndStrokes) {
     const Recipe recipe =
         parse_recipe("[stage]\nmodel = \"witkin-kass-stripes\"\nsize = 0.3\ndirections = " + directions, "test.toml");
     return vertex_lines(square, make_program(recipe, square).stages[0].directions,
-                        Hierarchy(make_topology(square.points.size(), square.triangles), midpoint_refine));
+                        make_topology(square.points.size(), square.triangles));
   };
   const auto expect_along = [](const std::vector<Tensor>& found, double xx, double yy) {
     for (const Tensor& t : found) {

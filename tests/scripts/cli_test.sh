@@ -108,6 +108,8 @@ expect 2 'a.png: a picture of 30000 x 30000 pixels is too large' field $sphere -
 expect 2 'unknown species "w"' map schnakenberg --x d=5:6 --y a=0.1:0.2 --species w
 expect 2 'unknown recipe "dem".*did you mean "demo"' grow --recipe dem -o a.ply
 expect 2 'unknown ramp "leopart".*did you mean "leopard"' grow $sphere -o a.ply --ramp leopart
+expect 2 '--quality: unknown quality "drafd".*did you mean "draft"' grow $sphere -o a.ply --quality drafd
+expect 2 'the stepper "rkc2" cannot grow with the method "loop"' grow $sphere -o a.ply --method loop --stepper rkc2
 expect 2 '--method: unknown method "lopo".*did you mean "loop"' grow $sphere -o a.ply --method lopo
 expect 2 'unknown stepper "sbdf".*did you mean "sbdf2"' grow $sphere -o a.ply --stepper sbdf
 expect 2 'unknown species "c"' grow $sphere -o a.ply --species c

@@ -9,9 +9,11 @@
 
 namespace pelage {
 
+/// Those that work on every space.
 inline std::vector<std::string> stepper_names() {
   std::vector<std::string> names;
-  for (const StepperKind* kind : stepper_kinds()) names.emplace_back(kind->name);
+  for (const StepperKind* kind : stepper_kinds())
+    if (!kind->nodal) names.emplace_back(kind->name);
   return names;
 }
 

@@ -1,0 +1,56 @@
+#include "profile.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+
+namespace pelage {
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace
+
+Progress Profile::measured(Progress progress) {
+  return [this, progress = std::move(progress)](std::string_view task, double fraction) {
+    begin(task);
+    return progress(task, fraction);
+  };
+}
+
+void Profile::begin(std::string_view task) {
+  const std::string name(task.substr(0, task.find(' ')));
+  if (!phases_.empty() && phases_[now_].name == name) return;
+  if (!phases_.empty()) phases_[now_].seconds += seconds_since(began_);
+  now_ = static_cast<std::size_t>(std::ranges::find(phases_, name, &Phase::name) - phases_.begin());
+  if (now_ == phases_.size()) phases_.push_back({name});
+  began_ = Clock::now();
+}
+
+const std::vector<Profile::Phase>& Profile::phases() {
+  if (!phases_.empty()) phases_[now_].seconds += seconds_since(began_);
+  began_ = Clock::now();
+  return phases_;
+}
+
+double stream_bandwidth(std::size_t floats) {
+  std::vector<float> a(floats), b(floats, 1), c(floats, 2);
+  constexpr int rounds = 8;
+  double best = 0;
+  for (int round = 0; round < rounds; ++round) {
+    const auto begin = std::chrono::steady_clock::now();
+    parallel_for(
+        floats,
+        [&](std::size_t first, std::size_t last) {
+          for (std::size_t i = first; i < last; ++i) a[i] = b[i] + c[i];
+        },
+        std::size_t{1} << 16);
+    best = std::max(best, 3 * sizeof(float) * static_cast<double>(floats) / seconds_since(begin));
+  }
+  return best;
+}
+
+}  // namespace pelage

@@ -1,0 +1,727 @@
+#include "time/rkc2.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/dense.h"
+#include "base/parallel.h"
+#include "base/random.h"
+#include "time/chebyshev.h"
+#include "time/paired_nodes.h"
+#include "time/step_support.h"
+
+namespace pelage {
+
+namespace {
+
+/// Nodes that are worked on together, so that all their numbers stay in the L1 cache.
+constexpr std::size_t block_nodes = 256;
+/// Nodes per piece of parallel work.
+constexpr std::size_t piece_nodes = 4 * block_nodes;
+/// The Jacobian of the reaction is looked at in so many nodes of every block.
+constexpr std::size_t probed_nodes = 64;
+
+/// Rounding grows with the square of the number of stages, 6e-8 s^2 of the change in a step; a step that needs more of
+/// them is made of several.
+constexpr int most_stages = 100;
+
+/// Values that no concentration reaches but by blowing up, see advance().
+constexpr double largest_value = 1e30;
+/// Smaller values become 0, well above the smallest float, and fields that are not much larger count for nothing.
+constexpr double smallest_value = 1e-30, small_field = 1e-27;
+
+/// The power iteration finds the largest eigenvalue from below, and the Jacobian is that of the start of the step.
+constexpr double radius_margin = 1.05, jacobian_margin = 1.2;
+
+std::size_t slices_below(std::size_t nodes) { return padded(nodes) / slice_rows; }
+
+/// Species that share an operator, two at most.
+struct Pair {
+  std::array<std::size_t, 2> species{};
+  std::size_t count = 0;
+  SharedMatrix stiffness, mass;  ///< null where nothing diffuses
+  SharedVector weight;
+  std::size_t matrix = 0;
+  std::array<float, 2> diffusion{};
+};
+
+/// Matrices that are kept as long as what they are made of.
+struct KeptMatrix {
+  SharedMatrix stiffness, mass;
+  std::shared_ptr<const Held> held;
+  SlicedMatrix sliced;
+  double radius = 0;  ///< the largest eigenvalue of (I + E + ...) L^-1 K
+};
+
+/// A function of time at all nodes: one field per pair.
+using Fields = std::vector<PairField>;
+
+/// Per species: sums of the squares of error and value; then the largest entries of the Jacobian.
+struct RateSums {
+  std::vector<double> error, size, jacobian;
+  explicit RateSums(std::size_t species = 0) : error(species), size(species), jacobian(species * species) {}
+  RateSums& operator+=(const RateSums& o) {
+    for (std::size_t i = 0; i < error.size(); ++i) {
+      error[i] += o.error[i];
+      size[i] += o.size[i];
+    }
+    for (std::size_t k = 0; k < jacobian.size(); ++k) jacobian[k] = std::max(jacobian[k], o.jacobian[k]);
+    return *this;
+  }
+};
+
+/// The spectral radius of a matrix without negative entries; infinite where one is no number.
+double nonnegative_radius(const Eigen::MatrixXd& a) {
+  return a.allFinite() ? eigenvalues(a).cwiseAbs().maxCoeff() : std::numeric_limits<double>::infinity();
+}
+
+/// Memory for the blocks of one piece of work.
+class BlockWork {
+ public:
+  BlockWork(std::size_t pairs, std::size_t species)
+      : memory_(std::make_unique_for_overwrite<float[]>(8 * pairs * block_nodes)),
+        pointers_(6 * pairs + species),
+        in_(species),
+        pairs_(pairs) {
+    for (std::size_t k = 0; k < 6 * pairs; ++k) pointers_[k] = memory_.get() + k * block_nodes;
+  }
+  /// Fields by 2 pair + lane: values, rates, and other rates.
+  std::span<float* const> u() const { return std::span(pointers_).first(2 * pairs_); }
+  std::span<float* const> rate() const { return std::span(pointers_).subspan(2 * pairs_, 2 * pairs_); }
+  std::span<float* const> other() const { return std::span(pointers_).subspan(4 * pairs_, 2 * pairs_); }
+  float* product(std::size_t pair) { return memory_.get() + (6 * pairs_ + 2 * pair) * block_nodes; }
+  /// Room for one pointer per species.
+  std::span<const float*> in() { return in_; }
+  std::span<float*> out() { return std::span(pointers_).subspan(6 * pairs_); }
+
+ private:
+  std::unique_ptr<float[]> memory_;
+  std::vector<float*> pointers_;
+  std::vector<const float*> in_;
+  std::size_t pairs_;
+};
+
+/// u^(n+1) = u^n + d, where d comes of s stages, each an explicit evaluation of
+///   f(u, t) = (I + E + ... + E^m) (-L^-1 D K u) + R(u, t),   E = I - L^-1 M,
+/// with the row sums L of the mass M: the sum is the inverse of L^-1 M cut off after m sweeps, and as 1'L E = 0 it
+/// moves no amount. The number of stages follows the stiffness, so that every step is stable. Stages are made for the
+/// difference d, which is added once, in double precision: single precision then limits what changes in a step, not
+/// the field. All that a step depends on is the state, so that a run continues from a checkpoint bit by bit.
+class Rkc2 final : public Stepper {
+ public:
+  explicit Rkc2(const Rkc2Options& options) : options_(options), loops_(&node_loops(options.instructions)) {}
+  StepReport step(const System& system, State& state, const StepRequest& request) override;
+
+ private:
+  void bind(const System& system);
+  void pair_species(const System& system);
+  std::size_t keep_matrix(const System& system, std::size_t species);
+  double radius_of(const SlicedMatrix& m);
+  const SlicedMatrix* matrix_of(const Pair& p) const { return p.stiffness ? &kept_[p.matrix].sliced : nullptr; }
+  void resize(Fields& fields) const;
+
+  void start_from(const System& system, const State& state);
+  bool substep(const System& system, const std::vector<Vector>& now, double t, double dt, const StepRequest& request,
+               StepReport& report);
+  void first_stage(const std::vector<StageTerms>& terms, float rate);
+  void take_stages(const System& system, double t, double dt, int s);
+  void finish(const System& system, const std::vector<Vector>& now, double dt, StepReport& report);
+  RateSums evaluate(const System& system, const Fields& y, double t, const Fields* d, double dt);
+  void report_sums(const System& system, const std::vector<Vector>& now, const std::vector<SpeciesSums>& sums,
+                   double dt, StepReport& report);
+  std::size_t worst(const std::vector<Vector>& now, std::size_t species) const;
+  std::vector<ErrorTerms> error_terms(const System& system, double dt) const;
+  void add_error(const ErrorTerms& terms, std::size_t pair, const Fields& y, const Fields& d, std::size_t first,
+                 std::size_t count, RateSums& sums) const;
+  void probe(const System& system, const FloatRates& rates, std::size_t first, std::size_t count, BlockWork& work,
+             RateSums& sums) const;
+  double error_of(const RateSums& sums) const;
+  double stiffness() const;
+
+  int sweeps_of(const Pair& p) const;
+  int before_last(const Fields& x);
+  void last_product(std::size_t pair, const Fields& x, std::size_t first, std::size_t last, float* out) const;
+  FloatRates rates_at(const System& system, double t);
+  void rates_of_block(const System& system, const FloatRates& rates, std::size_t first, std::size_t count,
+                      BlockWork& work, std::span<float* const> rate) const;
+
+  Rkc2Options options_;
+  const NodeLoops* loops_;
+  std::size_t nodes_ = 0, species_ = 0;
+  std::vector<Pair> pairs_;
+  std::vector<std::size_t> place_;  ///< of every species: 2 pair + lane
+  std::vector<KeptMatrix> kept_;
+  std::shared_ptr<const Held> held_;
+  std::shared_ptr<const Sampling> sampling_;
+  bool nodal_ = false;
+  Fields y_, f_, g_, y_next_, f_next_, g_next_, d_, d_before_, product_, swept_;
+  std::vector<double> jacobian_;
+  std::vector<float> probe_, probe_next_;  ///< by how much species are changed to see the Jacobian
+  bool known_ = false;                     ///< f_ belongs to y_ at the time known_time_
+  double known_time_ = 0;
+  std::vector<Vector> next_, wide_, wide_rates_;
+};
+
+int Rkc2::sweeps_of(const Pair& p) const {
+  const SlicedMatrix* m = matrix_of(p);
+  return m && !m->correction.empty() ? options_.sweeps : 0;
+}
+
+/// Two species share a pair when they have one operator, or when one of them does not diffuse.
+void Rkc2::pair_species(const System& system) {
+  pairs_.clear();
+  place_.assign(species_, 0);
+  for (std::size_t i = 0; i < species_; ++i) {
+    const Species& s = system.species[i];
+    const bool diffuses = s.diffusion != 0;
+    const auto fits = [&](const Pair& p) {
+      return p.count < 2 && (!diffuses || !p.stiffness || (p.stiffness == s.stiffness && p.mass == mass_of(system, i)));
+    };
+    auto p = std::ranges::find_if(pairs_, fits);
+    if (p == pairs_.end()) p = pairs_.insert(p, Pair{});
+    if (diffuses && !p->stiffness) {
+      p->stiffness = s.stiffness;
+      p->mass = mass_of(system, i);
+      p->matrix = keep_matrix(system, i);
+    }
+    place_[i] = 2 * static_cast<std::size_t>(p - pairs_.begin()) + p->count;
+    p->diffusion[p->count] = static_cast<float>(s.diffusion);
+    p->species[p->count++] = i;
+  }
+}
+
+std::size_t Rkc2::keep_matrix(const System& system, std::size_t i) {
+  const SharedMatrix &stiffness = system.species[i].stiffness, &mass = mass_of(system, i);
+  for (std::size_t k = 0; k < kept_.size(); ++k)
+    if (kept_[k].stiffness == stiffness && kept_[k].mass == mass && kept_[k].held == system.held) return k;
+  kept_.push_back({stiffness, mass, system.held, slice(*stiffness, *mass, weight_of(system, i), system.held.get()), 0});
+  kept_.back().radius = radius_of(kept_.back().sliced);
+  return kept_.size() - 1;
+}
+
+/// Matrices that nobody uses any more go.
+void Rkc2::bind(const System& system) {
+  const bool same = species_ == system.species.size() && held_ == system.held && [&] {
+    for (std::size_t i = 0; i < species_; ++i) {
+      const Pair& p = pairs_[place_[i] / 2];
+      const Species& s = system.species[i];
+      if (p.diffusion[place_[i] % 2] != static_cast<float>(s.diffusion)) return false;
+      if (s.diffusion != 0 && (p.stiffness != s.stiffness || p.mass != mass_of(system, i))) return false;
+    }
+    return true;
+  }();
+  if (same && nodes_ == static_cast<std::size_t>(system.sampling->count())) return;
+  known_ = false;
+  nodes_ = static_cast<std::size_t>(system.sampling->count());
+  species_ = system.species.size();
+  held_ = system.held;
+  pair_species(system);
+  std::vector<KeptMatrix> used;
+  for (Pair& p : pairs_) {
+    if (!p.stiffness) continue;
+    const auto same_matrix = [&](const KeptMatrix& k) { return k.stiffness == p.stiffness && k.mass == p.mass; };
+    const auto at = static_cast<std::size_t>(std::ranges::find_if(used, same_matrix) - used.begin());
+    if (at == used.size()) used.push_back(std::move(kept_[p.matrix]));
+    p.matrix = at;
+  }
+  kept_ = std::move(used);
+  for (Fields* f : {&y_, &f_, &g_, &y_next_, &f_next_, &g_next_, &d_, &d_before_, &product_, &swept_}) resize(*f);
+}
+
+void Rkc2::resize(Fields& fields) const {
+  fields.resize(pairs_.size());
+  for (PairField& f : fields) f.assign(2 * padded(nodes_), 0.0f);
+}
+
+/// Power iteration from a field that is largest where the matrix is, with signs at random: short edges and corners of
+/// few triangles have the largest eigenvalues.
+double Rkc2::radius_of(const SlicedMatrix& m) {
+  constexpr int iterations = 60;
+  constexpr double enough = 2e-3;
+  const std::size_t slices = m.slices();
+  PairField x(2 * slice_rows * slices), y(x.size()), z(x.size());
+  const std::array<float, 2> one = {1, 1};
+  parallel_for(slices, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s)
+      for (std::size_t k = 0; k < slice_rows; ++k) {
+        float sum = 0;
+        for (std::size_t e = m.start[s]; e < m.start[s + 1]; ++e) sum += m.diffusion[slice_rows * e + k];
+        const std::size_t i = s * slice_rows + k;
+        for (std::size_t lane = 0; lane < 2; ++lane) x[2 * i + lane] = hash(1, 2 * i + lane) % 2 ? sum : -sum;
+      }
+  });
+  const auto size = [&](const PairField& f) {
+    return std::sqrt(ordered_sum(f.size(), 0.0, [&](std::size_t begin, std::size_t end) {
+      double sum = 0;
+      for (std::size_t k = begin; k < end; ++k) sum += static_cast<double>(f[k]) * f[k];
+      return sum;
+    }));
+  };
+  const auto times = [&](const AlignedVector<float>& values, const PairField& in, const PairField* base,
+                         PairField& out) {
+    parallel_for(
+        slices,
+        [&](std::size_t begin, std::size_t end) {
+          const std::size_t at = 2 * slice_rows * begin;
+          loops_->multiply(m, values.data(), in.data(), base ? base->data() + at : nullptr, one.data(), begin, end,
+                           out.data() + at);
+        },
+        128);
+  };
+  double radius = 0;
+  for (int k = 0; k < iterations; ++k) {
+    const double before = size(x);
+    if (!(before > 0)) return 0;
+    const auto scale = static_cast<float>(1 / before);
+    for (float& value : x) value *= scale;
+    times(m.diffusion, x, nullptr, y);
+    std::swap(x, y);
+    if (!m.correction.empty() && options_.sweeps > 0) {
+      PairField g = x;
+      for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
+        times(m.correction, x, &g, z);
+        std::swap(x, z);
+      }
+    }
+    const double next = size(x);
+    const bool done = k > 8 && next < radius * (1 + enough);
+    radius = std::max(radius, next);
+    if (done) break;
+  }
+  return radius;
+}
+
+/// Takes the state over and finds f there, unless it is known from the step before.
+void Rkc2::start_from(const System& system, const State& state) {
+  std::vector<char> differs(chunk_count(nodes_, piece_nodes));
+  for (std::size_t i = 0; i < species_; ++i) {
+    const double* now = state.now[i].data();
+    float* y = y_[place_[i] / 2].data() + place_[i] % 2;
+    parallel_for(
+        nodes_,
+        [&](std::size_t begin, std::size_t end) {
+          bool changed = false;
+          for (std::size_t k = begin; k < end; ++k) {
+            const auto value = static_cast<float>(now[k]);
+            changed |= !(y[2 * k] == value);
+            y[2 * k] = value;
+          }
+          if (changed) differs[begin / piece_nodes] = 1;
+        },
+        piece_nodes);
+  }
+  if (known_ && known_time_ == state.time && std::ranges::find(differs, 1) == differs.end()) return;
+  probe_.assign(species_, 0);
+  for (std::size_t i = 0; i < species_; ++i)
+    probe_[i] = static_cast<float>(std::max(std::abs(minimum(state.now[i])), std::abs(maximum(state.now[i]))));
+  probe_next_ = probe_;
+  jacobian_ = evaluate(system, y_, state.time, nullptr, 0).jacobian;
+  std::swap(f_, f_next_);
+  std::swap(g_, g_next_);
+  known_ = true;
+  known_time_ = state.time;
+}
+
+FloatRates Rkc2::rates_at(const System& system, double t) {
+  if (system.reaction.float_rates) return system.reaction.float_rates(t);
+  for (std::vector<Vector>* fields : {&wide_, &wide_rates_})
+    fields->assign(species_, Vector(static_cast<Eigen::Index>(nodes_)));
+  return [this, &system, t](std::span<const float* const> u, std::size_t first, std::size_t count,
+                            std::span<float* const> rate) {
+    FieldPointers in;
+    MutableFieldPointers out;
+    for (std::size_t i = 0; i < species_; ++i) {
+      std::copy(u[i], u[i] + count, wide_[i].data() + first);
+      in.push_back(wide_[i].data());
+      out.push_back(wide_rates_[i].data());
+    }
+    system.reaction.rates(in, t, first, first + count, out);
+    for (std::size_t i = 0; i < species_; ++i)
+      std::transform(out[i] + first, out[i] + first + count, rate[i], [](double r) { return static_cast<float>(r); });
+  };
+}
+
+/// `rate`: two per pair; 0 where nodes are held and where a pair has but one species.
+void Rkc2::rates_of_block(const System& system, const FloatRates& rates, std::size_t first, std::size_t count,
+                          BlockWork& work, std::span<float* const> rate) const {
+  for (std::size_t i = 0; i < species_; ++i) {
+    work.in()[i] = work.u()[place_[i]];
+    work.out()[i] = rate[place_[i]];
+  }
+  rates(work.in(), first, count, work.out());
+  for (float* r : rate) std::fill(r + count, r + padded(count), 0.0f);
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    if (pairs_[p].count < 2) std::fill_n(rate[2 * p + 1], count, 0.0f);
+  if (!system.held) return;
+  for (std::size_t k = 0; k < count; ++k)
+    if ((*system.held)[first + k])
+      for (float* r : rate) r[k] = 0;
+}
+
+/// All products of L^-1 D K x and the sweeps but the last, which belongs to the loop over blocks. A pair without any
+/// sweep has but the last.
+int Rkc2::before_last(const Fields& x) {
+  int most = 0;
+  for (const Pair& p : pairs_) most = std::max(most, sweeps_of(p));
+  const std::array<float, 2> one = {1, 1};
+  for (int pass = 0; pass < most; ++pass)
+    parallel_for(
+        nodes_,
+        [&](std::size_t begin, std::size_t end) {
+          const std::size_t first = begin / slice_rows, last = slices_below(end), at = 2 * begin;
+          for (std::size_t p = 0; p < pairs_.size(); ++p) {
+            if (pass >= sweeps_of(pairs_[p])) continue;
+            const SlicedMatrix& m = *matrix_of(pairs_[p]);
+            if (pass == 0)
+              loops_->multiply(m, m.diffusion.data(), x[p].data(), nullptr, pairs_[p].diffusion.data(), first, last,
+                               product_[p].data() + at);
+            else
+              loops_->multiply(m, m.correction.data(), (pass == 1 ? product_ : swept_)[p].data(),
+                               product_[p].data() + at, one.data(), first, last, swept_[p].data() + at);
+          }
+        },
+        piece_nodes);
+  return most;
+}
+
+/// (I + E + ...) (-L^-1 D K x) of the slices of a block.
+void Rkc2::last_product(std::size_t p, const Fields& x, std::size_t first, std::size_t last, float* out) const {
+  const SlicedMatrix* m = matrix_of(pairs_[p]);
+  if (!m) {
+    std::fill_n(out, 2 * slice_rows * (last - first), 0.0f);
+  } else if (const int sweeps = sweeps_of(pairs_[p])) {
+    const std::array<float, 2> one = {1, 1};
+    loops_->multiply(*m, m->correction.data(), (sweeps == 1 ? product_ : swept_)[p].data(),
+                     product_[p].data() + 2 * slice_rows * first, one.data(), first, last, out);
+  } else {
+    loops_->multiply(*m, m->diffusion.data(), x[p].data(), nullptr, pairs_[p].diffusion.data(), first, last, out);
+  }
+}
+
+/// Values are divided by the largest, probe_next_.
+std::vector<ErrorTerms> Rkc2::error_terms(const System& system, double dt) const {
+  std::vector<ErrorTerms> terms(pairs_.size(), {static_cast<float>(0.4 * dt), {0, 0}, {0, 0}, {0, 0}});
+  for (std::size_t i = 0; i < species_; ++i) {
+    ErrorTerms& e = terms[place_[i] / 2];
+    const std::size_t lane = place_[i] % 2;
+    e.lower[lane] = static_cast<float>(system.species[i].lower);
+    e.upper[lane] = static_cast<float>(system.species[i].upper);
+    e.scale[lane] = 1 / std::max(probe_next_[i], static_cast<float>(small_field));
+  }
+  return terms;
+}
+
+/// f_next_ and g_next_ at y and t. With the step d that led from y_ to y, also the sums of the error estimate.
+RateSums Rkc2::evaluate(const System& system, const Fields& y, double t, const Fields* d, double dt) {
+  before_last(y);
+  const FloatRates rates = rates_at(system, t);
+  const std::vector<ErrorTerms> terms = error_terms(system, dt);
+  const auto partial = [&](std::size_t begin, std::size_t end) {
+    RateSums sums(species_);
+    BlockWork work(pairs_.size(), species_);
+    for (std::size_t first = begin; first < end; first += block_nodes) {
+      const std::size_t count = std::min(block_nodes, end - first), at = 2 * first;
+      for (std::size_t p = 0; p < pairs_.size(); ++p)
+        loops_->separate(y[p].data() + at, nullptr, count, work.u()[2 * p], work.u()[2 * p + 1]);
+      rates_of_block(system, rates, first, count, work, work.rate());
+      for (std::size_t p = 0; p < pairs_.size(); ++p) {
+        float* g = g_next_[p].data() + at;
+        last_product(p, y, first / slice_rows, slices_below(first + count), g);
+        loops_->add_rates(g, work.rate()[2 * p], work.rate()[2 * p + 1], count, f_next_[p].data() + at);
+        if (d) add_error(terms[p], p, y, *d, first, count, sums);
+      }
+      probe(system, rates, first, std::min(probed_nodes, count), work, sums);
+    }
+    return sums;
+  };
+  return ordered_sum(nodes_, RateSums(species_), partial, piece_nodes);
+}
+
+void Rkc2::add_error(const ErrorTerms& terms, std::size_t p, const Fields& y, const Fields& d, std::size_t first,
+                     std::size_t count, RateSums& sums) const {
+  std::array<double, 4> sum{};
+  const std::size_t at = 2 * first;
+  loops_->error(terms, y_[p].data() + at, y[p].data() + at, d[p].data() + at, f_[p].data() + at, f_next_[p].data() + at,
+                count, sum.data());
+  for (std::size_t k = 0; k < pairs_[p].count; ++k) {
+    sums.error[pairs_[p].species[k]] += sum[2 * k];
+    sums.size[pairs_[p].species[k]] += sum[2 * k + 1];
+  }
+}
+
+/// The largest entries of the Jacobian of the reaction, by differences, at the first nodes of a block whose values and
+/// rates are in `work`.
+void Rkc2::probe(const System& system, const FloatRates& rates, std::size_t first, std::size_t count, BlockWork& work,
+                 RateSums& sums) const {
+  for (std::size_t j = 0; j < species_; ++j) {
+    float* u = work.u()[place_[j]];
+    const float step = probe_next_[j] > 0 ? 0.01f * probe_next_[j] : 1e-3f;
+    for (std::size_t k = 0; k < count; ++k) u[k] += step;
+    rates_of_block(system, rates, first, count, work, work.other());
+    for (std::size_t k = 0; k < count; ++k) u[k] -= step;
+    for (std::size_t i = 0; i < species_; ++i) {
+      const float *a = work.rate()[place_[i]], *b = work.other()[place_[i]];
+      float largest = 0;
+      for (std::size_t k = 0; k < count; ++k) {
+        const float difference = std::abs(b[k] - a[k]);
+        largest = difference > largest ? difference : largest;
+      }
+      double& entry = sums.jacobian[i * species_ + j];
+      entry = std::max(entry, static_cast<double>(largest) / step);
+    }
+  }
+}
+
+/// Relative to the size of the field; one that blows up has none.
+double Rkc2::error_of(const RateSums& sums) const {
+  double worst = 0;
+  for (std::size_t i = 0; i < species_; ++i) {
+    const double least = probe_next_[i] < small_field ? static_cast<double>(nodes_) : 0;
+    const double size = std::max(sums.size[i], least);
+    const double error = size > 0 ? std::sqrt(sums.error[i] / size) : 0;
+    worst = std::isfinite(error) ? std::max(worst, error) : std::numeric_limits<double>::infinity();
+  }
+  return worst;
+}
+
+/// A bound of the spectral radius of df/du: on every wave, the moduli of the entries of the matrix of the linearised
+/// system are at most those of the matrix here.
+double Rkc2::stiffness() const {
+  const auto n = static_cast<Eigen::Index>(species_);
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Eigen::MatrixXd bound = jacobian_margin * Eigen::Map<const RowMajor>(jacobian_.data(), n, n);
+  for (std::size_t i = 0; i < species_; ++i) {
+    const Pair& p = pairs_[place_[i] / 2];
+    if (p.stiffness)
+      bound(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) +=
+          radius_margin * p.diffusion[place_[i] % 2] * kept_[p.matrix].radius;
+  }
+  return nonnegative_radius(bound);
+}
+
+/// d_ = rate f_0 within the clamps.
+void Rkc2::first_stage(const std::vector<StageTerms>& terms, float rate) {
+  parallel_for(
+      nodes_,
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = 0; p < pairs_.size(); ++p) {
+          const float *y = y_[p].data(), *f = f_[p].data();
+          for (std::size_t k = 2 * begin; k < 2 * end; ++k) {
+            const float down = terms[p].lower[k % 2] - y[k], up = terms[p].upper[k % 2] - y[k];
+            const float d = rate * f[k], above = d < down ? down : d;
+            d_[p][k] = above > up ? up : above;
+            d_before_[p][k] = 0;
+          }
+        }
+      },
+      piece_nodes);
+}
+
+/// d_ = u^(n+1) - u^n.
+void Rkc2::take_stages(const System& system, double t, double dt, int s) {
+  const std::vector<ChebyshevStage> stages = chebyshev_stages(s);
+  std::vector<StageTerms> terms(pairs_.size());
+  for (std::size_t i = 0; i < species_; ++i) {
+    terms[place_[i] / 2].lower[place_[i] % 2] = static_cast<float>(system.species[i].lower);
+    terms[place_[i] / 2].upper[place_[i] % 2] = static_cast<float>(system.species[i].upper);
+  }
+  first_stage(terms, static_cast<float>(stages[1].rate * dt));
+  for (std::size_t j = 2; j < stages.size(); ++j) {
+    const ChebyshevStage& stage = stages[j];
+    for (StageTerms& of_pair : terms) {
+      of_pair.mu = static_cast<float>(stage.mu);
+      of_pair.nu = static_cast<float>(stage.nu);
+      of_pair.rate = static_cast<float>(stage.rate * dt);
+      of_pair.first = static_cast<float>(stage.first * dt);
+    }
+    before_last(d_);
+    const FloatRates rates = rates_at(system, t + stages[j - 1].time * dt);
+    parallel_for(
+        nodes_,
+        [&](std::size_t begin, std::size_t end) {
+          BlockWork work(pairs_.size(), species_);
+          for (std::size_t first = begin; first < end; first += block_nodes) {
+            const std::size_t count = std::min(block_nodes, end - first), at = 2 * first;
+            for (std::size_t p = 0; p < pairs_.size(); ++p)
+              loops_->separate(y_[p].data() + at, d_[p].data() + at, count, work.u()[2 * p], work.u()[2 * p + 1]);
+            rates_of_block(system, rates, first, count, work, work.rate());
+            for (std::size_t p = 0; p < pairs_.size(); ++p) {
+              float* q = work.product(p);
+              last_product(p, d_, first / slice_rows, slices_below(first + count), q);
+              loops_->stage(terms[p], y_[p].data() + at, d_[p].data() + at, g_[p].data() + at, q, f_[p].data() + at,
+                            work.rate()[2 * p], work.rate()[2 * p + 1], count, d_before_[p].data() + at);
+            }
+          }
+        },
+        piece_nodes);
+    std::swap(d_, d_before_);
+  }
+}
+
+double rounding_of_clamps(const Species& s) {
+  double largest = 0;
+  for (const double clamp : {s.lower, s.upper})
+    if (std::isfinite(clamp)) largest = std::max(largest, std::abs(clamp));
+  return largest * std::numeric_limits<float>::epsilon();
+}
+
+/// next_ and y_next_ from `now` and d_, and change, minimum and maximum or the failure of the report.
+void Rkc2::finish(const System& system, const std::vector<Vector>& now, double dt, StepReport& report) {
+  next_.resize(species_);
+  std::vector<SpeciesLimits> limits;
+  for (std::size_t i = 0; i < species_; ++i) {
+    const Species& s = system.species[i];
+    next_[i].resize(static_cast<Eigen::Index>(nodes_));
+    limits.push_back({s.lower, s.upper, smallest_value, now[i][0], rounding_of_clamps(s)});
+  }
+  const std::size_t pieces = chunk_count(nodes_, piece_nodes);
+  std::vector<SpeciesSums> parts(pieces * species_);
+  parallel_chunks(pieces, [&](std::size_t piece) {
+    BlockWork work(pairs_.size(), species_);
+    const std::size_t end = std::min(nodes_, (piece + 1) * piece_nodes);
+    for (std::size_t first = piece * piece_nodes; first < end; first += block_nodes) {
+      const std::size_t count = std::min(block_nodes, end - first);
+      for (std::size_t p = 0; p < pairs_.size(); ++p) {
+        loops_->separate(d_[p].data() + 2 * first, nullptr, count, work.u()[2 * p], work.u()[2 * p + 1]);
+        for (float* y : {work.rate()[2 * p], work.rate()[2 * p + 1]}) std::fill_n(y, block_nodes, 0.0f);
+        for (std::size_t k = 0; k < pairs_[p].count; ++k) {
+          const std::size_t i = pairs_[p].species[k];
+          loops_->finish(limits[i], now[i].data() + first, work.u()[2 * p + k], count, next_[i].data() + first,
+                         work.rate()[2 * p + k], parts[piece * species_ + i]);
+        }
+        loops_->join(work.rate()[2 * p], work.rate()[2 * p + 1], count, y_next_[p].data() + 2 * first);
+      }
+    }
+  });
+  std::vector<SpeciesSums> sums(species_);
+  for (std::size_t k = 0; k < parts.size(); ++k) sums[k % species_] += parts[k];
+  report_sums(system, now, sums, dt, report);
+}
+
+void Rkc2::report_sums(const System& system, const std::vector<Vector>& now, const std::vector<SpeciesSums>& sums,
+                       double dt, StepReport& report) {
+  report.minimum = std::numeric_limits<double>::infinity();
+  report.maximum = -report.minimum;
+  report.change = 0;
+  const auto n = static_cast<double>(nodes_);
+  for (std::size_t i = 0; i < species_; ++i) {
+    const SpeciesSums& s = sums[i];
+    if (!(s.largest <= largest_value) || !std::isfinite(s.squared_change)) {
+      report.failure = system.species[i].name + " grows beyond all bounds at vertex " + std::to_string(worst(now, i));
+      return;
+    }
+    const double variance = std::max(0.0, s.squared_deviation - s.deviation * s.deviation / n);
+    const double amplitude = std::max(std::sqrt(variance), small_field * std::sqrt(n));
+    if (s.squared_change > 0) report.change = std::max(report.change, std::sqrt(s.squared_change) / (amplitude * dt));
+    report.minimum = std::min(report.minimum, s.minimum);
+    report.maximum = std::max(report.maximum, s.maximum);
+    probe_next_[i] = static_cast<float>(std::max(std::abs(s.minimum), std::abs(s.maximum)));
+  }
+}
+
+/// The first node where a species is too large or no number.
+std::size_t Rkc2::worst(const std::vector<Vector>& now, std::size_t i) const {
+  const PairField& d = d_[place_[i] / 2];
+  std::size_t k = 0;
+  while (k + 1 < nodes_ && std::abs(now[i][static_cast<Eigen::Index>(k)] +
+                                    static_cast<double>(d[2 * k + place_[i] % 2])) <= largest_value)
+    ++k;
+  return k;
+}
+
+bool Rkc2::substep(const System& system, const std::vector<Vector>& now, double t, double dt,
+                   const StepRequest& request, StepReport& report) {
+  const int s = chebyshev_stage_count(dt * stiffness());
+  take_stages(system, t, dt, s);
+  report.iterations += s;
+  finish(system, now, dt, report);
+  if (!report.failure.empty()) return false;
+  const RateSums sums = evaluate(system, y_next_, t + dt, &d_, dt);
+  report.error = std::max(report.error, error_of(sums));
+  if (report.error > request.largest_error) return false;
+  std::swap(y_, y_next_);
+  std::swap(f_, f_next_);
+  std::swap(g_, g_next_);
+  probe_ = probe_next_;
+  jacobian_ = sums.jacobian;
+  known_time_ = t + dt;
+  return true;
+}
+
+/// Are the unknowns the values at the samples?
+bool is_nodal(const SparseMatrix& values) {
+  const SparsePattern& p = *values.pattern;
+  for (std::int32_t i = 0; i < p.rows; ++i)
+    if (p.start[static_cast<std::size_t>(i) + 1] != i + 1 || p.column[static_cast<std::size_t>(i)] != i ||
+        values.value[static_cast<std::size_t>(i)] != 1)
+      return false;
+  return p.rows == p.columns;
+}
+
+StepReport Rkc2::step(const System& system, State& state, const StepRequest& request) {
+  StepReport report;
+  if (sampling_ != system.sampling) {
+    sampling_ = system.sampling;
+    nodal_ = is_nodal(sampling_->values);
+  }
+  if (!nodal_ || !system.coupled.index.empty()) {
+    report.failure = "the stepper rkc2 needs unknowns that are values at the nodes, and species that are not coupled";
+    return report;
+  }
+  bind(system);
+  start_from(system, state);
+  const double allowed = (most_stages * most_stages - 1) / 1.54;
+  const double parts = std::max(1.0, std::ceil(request.dt * stiffness() / allowed));
+  if (!(parts < 1e6)) {
+    report.failure = "the fields change so fast that no step is stable";
+    return report;
+  }
+  const std::vector<Vector>* now = &state.now;
+  for (int k = 0; k < static_cast<int>(parts); ++k) {
+    const double begin = state.time + request.dt * (k / parts), end = state.time + request.dt * ((k + 1) / parts);
+    if (!substep(system, *now, begin, end - begin, request, report)) return report;
+    now = &next_;
+  }
+  std::swap(state.now, next_);
+  state.time += request.dt;
+  known_time_ = state.time;
+  ++state.step;
+  report.accepted = true;
+  return report;
+}
+
+/// As many stages as this wave alone needs.
+Eigen::MatrixXd amplification(const Linearisation& l, double dt, const Eigen::MatrixXd& decay) {
+  const Eigen::MatrixXd z = dt * (l.jacobian - decay);
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(z.rows(), z.cols());
+  const double stiffness = nonnegative_radius(z.cwiseAbs());
+  const int s = std::min(chebyshev_stage_count(stiffness), most_stages);
+  const std::vector<ChebyshevStage> stages = chebyshev_stages(s);
+  Eigen::MatrixXd before = Eigen::MatrixXd::Zero(z.rows(), z.cols()), d = stages[1].rate * z;
+  for (std::size_t j = 2; j < stages.size(); ++j) {
+    const ChebyshevStage& c = stages[j];
+    before = (c.mu * d + c.nu * before + c.rate * z * (one + d) + c.first * z).eval();
+    before.swap(d);
+  }
+  return one + d;
+}
+
+}  // namespace
+
+std::unique_ptr<Stepper> make_rkc2(const Rkc2Options& options) { return std::make_unique<Rkc2>(options); }
+
+constexpr StepperKind rkc2 = {.name = "rkc2",
+                              .alias = "",
+                              .make = []() -> std::unique_ptr<Stepper> { return make_rkc2(); },
+                              .samples = SampleRule::vertices,
+                              .adaptive = true,
+                              .couples = false,
+                              .holds = true,
+                              .keeps_rates = false,
+                              .amplification = amplification,
+                              .tolerance = 1e-3,
+                              .any_step = true,
+                              .nodal = true};
+
+}  // namespace pelage
