@@ -1,6 +1,6 @@
 # Thin verbs over tools/*.sh and the CMake presets, for those who have make.
 .DEFAULT_GOAL := build
-.PHONY: setup build demo test bench test-clients format format-check tidy asan fuzz clean
+.PHONY: setup build demo test bench bench-parts test-clients format format-check tidy asan fuzz clean
 
 export JOBS ?= $(shell nproc)
 CMAKE_BUILD := cmake --build --parallel $(JOBS) --preset
@@ -19,9 +19,16 @@ demo:  ## grow a coat on the built-in animal: out/demo.glb, out/demo.ply, out/de
 test:  ## build everything and run every test
 	@sh tools/test.sh
 
-bench:  ## measure; results in bench/results
+BENCH_BUILD = cmake --preset release -DPELAGE_TESTS=OFF -DPELAGE_BENCHMARKS=ON
+bench:  ## measure beside plain programs: docs/performance.md and bench/results, about ten minutes
 	@sh tools/setup.sh libbenchmark-dev
-	@cmake --preset release -DPELAGE_TESTS=OFF -DPELAGE_BENCHMARKS=ON
+	@$(BENCH_BUILD)
+	@$(CMAKE_BUILD) release --target pelage_cli plain measure
+	@python3 bench/tables.py $(BENCH)
+
+bench-parts:  ## measure the parts of a run one by one; results in bench/results
+	@sh tools/setup.sh libbenchmark-dev
+	@$(BENCH_BUILD)
 	@$(CMAKE_BUILD) release
 	@$(CMAKE_BUILD) release --target run_benchmarks
 
