@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "base/parallel.h"
-
 namespace pelage {
 
 namespace {
@@ -34,23 +32,6 @@ const std::vector<Profile::Phase>& Profile::phases() {
   if (!phases_.empty()) phases_[now_].seconds += seconds_since(began_);
   began_ = Clock::now();
   return phases_;
-}
-
-double stream_bandwidth(std::size_t floats) {
-  std::vector<float> a(floats), b(floats, 1), c(floats, 2);
-  constexpr int rounds = 8;
-  double best = 0;
-  for (int round = 0; round < rounds; ++round) {
-    const auto begin = std::chrono::steady_clock::now();
-    parallel_for(
-        floats,
-        [&](std::size_t first, std::size_t last) {
-          for (std::size_t i = first; i < last; ++i) a[i] = b[i] + c[i];
-        },
-        std::size_t{1} << 16);
-    best = std::max(best, 3 * sizeof(float) * static_cast<double>(floats) / seconds_since(begin));
-  }
-  return best;
 }
 
 }  // namespace pelage

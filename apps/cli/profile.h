@@ -31,7 +31,4 @@ class Profile {
   Clock::time_point began_;
 };
 
-/// Bytes per second of a loop a = b + c over arrays of `floats` numbers each, on all threads, best of several.
-double stream_bandwidth(std::size_t floats);
-
 }  // namespace pelage

@@ -94,12 +94,9 @@ const StepperKind* fitting_stepper(const Given<std::string>& asked, const Method
 }
 
 const Quality& quality_called(const Given<std::string>& name) {
-  std::vector<std::string> names;
-  for (const Quality& q : qualities()) {
-    if (q.name == name.value) return q;
-    names.emplace_back(q.name);
-  }
-  throw Error(Fault::usage, unknown_name("quality", name.value, names), name.where);
+  std::vector<const Quality*> known;
+  for (const Quality& q : qualities()) known.push_back(&q);
+  return component(name, "quality", known);
 }
 
 /// Names of all fields that these stages leave behind.

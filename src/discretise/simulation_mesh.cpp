@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "discretise/cubic_triangle.h"
 #include "pelage/error.h"
+#include "shape/normals.h"
 #include "shape/refine.h"
 #include "shape/vectors.h"
 
@@ -50,33 +51,6 @@ void refine_for(Hierarchy& levels, std::vector<Point>& control, double edge, std
   }
 }
 
-/// The place on the triangle of which the given one is a quarter; the inverse of Hierarchy's split (a, ab, ca),
-/// (ab, b, bc), (ca, bc, c), (bc, ca, ab).
-MeshPlace in_parent(const MeshPlace& p) {
-  const Index parent = p.face / 4;
-  switch (p.face % 4) {
-    case 0:
-      return {parent, p.v / 2, p.w / 2};
-    case 1:
-      return {parent, (1 + p.v) / 2, p.w / 2};
-    case 2:
-      return {parent, p.v / 2, (1 + p.w) / 2};
-    default:
-      return {parent, (1 - p.v) / 2, (1 - p.w) / 2};
-  }
-}
-
-/// The limit surface at the vertices of a level.
-struct LimitPoints {
-  std::vector<Point> position, normal;
-
-  LimitPoints(const LimitMasks& masks, const std::vector<Point>& control)
-      : position(combine(masks.position, control)), normal(combine(masks.tangent1, control)) {
-    const std::vector<Point> other = combine(masks.tangent2, control);
-    for (std::size_t i = 0; i < normal.size(); ++i) normal[i] = unit(cross(normal[i], other[i]));
-  }
-};
-
 }  // namespace
 
 SimulationMesh::SimulationMesh(Hierarchy& levels, std::vector<Point>& control, const Edge& edge,
@@ -98,16 +72,16 @@ SimulationMesh::SimulationMesh(Hierarchy& levels, std::vector<Point>& control, c
 }
 
 std::vector<Point> SimulationMesh::points(const std::vector<Point>& control) const {
-  const LimitPoints limit(masks_, control);
+  const std::vector<Point> limit = combine(masks_.position, control), normals = limit_normals(masks_, control);
   std::vector<Point> result(places_.size());
   parallel_for(places_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Triangle& t = finest_->triangles[at(places_[i].face)];
       std::array<Vector3d, 3> corner;
       std::array<std::array<Vector3d, 2>, 3> toward;
-      for (std::size_t k = 0; k < 3; ++k) corner[k] = vec(limit.position[at(t[k])]);
+      for (std::size_t k = 0; k < 3; ++k) corner[k] = vec(limit[at(t[k])]);
       for (std::size_t k = 0; k < 3; ++k) {
-        const Vector3d normal = vec(limit.normal[at(t[k])]);
+        const Vector3d normal = vec(normals[at(t[k])]);
         for (std::size_t side = 0; side < 2; ++side) {
           const Vector3d along = corner[(k + 1 + side) % 3] - corner[k];
           toward[k][side] = along - along.dot(normal) * normal;
@@ -120,33 +94,36 @@ std::vector<Point> SimulationMesh::points(const std::vector<Point>& control) con
   return result;
 }
 
-std::vector<double> SimulationMesh::values(const std::vector<double>& given, std::size_t components) const {
-  std::vector<double> result(places_.size() * components);
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    const auto [face, v, w] = on_shape_[i];
-    const Triangle& t = base_->triangles[at(face)];
-    for (std::size_t c = 0; c < components; ++c)
-      result[i * components + c] = (1 - v - w) * given[at(t[0]) * components + c] +
-                                   v * given[at(t[1]) * components + c] + w * given[at(t[2]) * components + c];
+namespace {
+
+/// Of tuples of `n` numbers, linear between those that tuple(face, k) names at the three corners.
+template <class Tuple>
+std::vector<double> linear(const std::vector<MeshPlace>& places, const std::vector<double>& given, std::size_t n,
+                           Tuple&& tuple) {
+  std::vector<double> result(places.size() * n);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto [face, v, w] = places[i];
+    const std::size_t a = n * tuple(at(face), 0), b = n * tuple(at(face), 1), c = n * tuple(at(face), 2);
+    for (std::size_t k = 0; k < n; ++k)
+      result[i * n + k] = (1 - v - w) * given[a + k] + v * given[b + k] + w * given[c + k];
   }
   return result;
+}
+
+}  // namespace
+
+std::vector<double> SimulationMesh::values(const std::vector<double>& given, std::size_t components) const {
+  return linear(on_shape_, given, components,
+                [&](std::size_t face, std::size_t k) { return at(base_->triangles[face][k]); });
 }
 
 Attribute SimulationMesh::values(const Attribute& given) const {
   Attribute result = given;
   const auto n = at(given.components);
   result.domain = Domain::vertex;
-  if (given.domain == Domain::vertex) {
-    result.values = values(given.values, n);
-    return result;
-  }
-  result.values.resize(places_.size() * n);
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    const auto [face, v, w] = on_shape_[i];
-    const double* corner = given.values.data() + 3 * at(face) * n;
-    for (std::size_t c = 0; c < n; ++c)
-      result.values[i * n + c] = (1 - v - w) * corner[c] + v * corner[n + c] + w * corner[2 * n + c];
-  }
+  result.values = given.domain == Domain::vertex ? values(given.values, n)
+                                                 : linear(on_shape_, given.values, n,
+                                                          [](std::size_t face, std::size_t k) { return 3 * face + k; });
   return result;
 }
 

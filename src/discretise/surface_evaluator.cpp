@@ -3,25 +3,11 @@
 #include <Eigen/Geometry>
 
 #include "discretise/metric.h"
+#include "shape/refine.h"
 
 namespace pelage {
 
 namespace {
-
-struct Place {
-  Index face;
-  double v, w;
-};
-
-/// The same place in one of the four triangles that Hierarchy makes of a triangle (a, b, c): (a, ab, ca), (ab, b, bc),
-/// (ca, bc, c), (bc, ca, ab).
-Place in_child(const Place& p) {
-  const auto [face, v, w] = p;
-  if (v + w <= 0.5) return {4 * face, 2 * v, 2 * w};
-  if (v >= 0.5) return {4 * face + 1, 2 * v - 1, 2 * w};
-  if (w >= 0.5) return {4 * face + 2, 2 * v, 2 * w - 1};
-  return {4 * face + 3, 1 - 2 * v, 1 - 2 * w};
-}
 
 Eigen::Vector3d combined(const ElementPoint& e, Eigen::Index row, const std::vector<Point>& control) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -47,7 +33,7 @@ SurfaceEvaluator::SurfaceEvaluator(std::shared_ptr<const Space> space, int level
     : space_(std::move(space)), levels_(levels), coefficients_(std::move(coefficients)) {}
 
 SurfaceSample SurfaceEvaluator::at(Index face, double v, double w) const {
-  Place p{face, v, w};
+  MeshPlace p{face, v, w};
   for (int level = 0; level < levels_; ++level) p = in_child(p);
   const ElementPoint e = space_->element_point(p.face, p.v, p.w);
   const std::vector<Point>& control = space_->control();

@@ -62,13 +62,6 @@ Hierarchy levels_of(const CoatFields& fields, const TessellationRequest& request
   return h;
 }
 
-std::vector<Point> limit_normals(const LimitMasks& masks, const std::vector<Point>& control) {
-  std::vector<Point> normals = combine(masks.tangent1, control);
-  const std::vector<Point> other = combine(masks.tangent2, control);
-  for (std::size_t i = 0; i < normals.size(); ++i) normals[i] = unit(cross(normals[i], other[i]));
-  return normals;
-}
-
 /// What the layers may read from the shape and its textures.
 VertexAttributes layer_attributes(const std::vector<Texture>& textures, const Tessellation& t) {
   std::vector<Attribute> given = t.attributes;

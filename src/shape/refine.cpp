@@ -75,6 +75,28 @@ double prevailing_edge(const std::vector<Triangle>& triangles, const std::vector
   return 0;
 }
 
+MeshPlace in_child(const MeshPlace& p) {
+  const auto [face, v, w] = p;
+  if (v + w <= 0.5) return {4 * face, 2 * v, 2 * w};
+  if (v >= 0.5) return {4 * face + 1, 2 * v - 1, 2 * w};
+  if (w >= 0.5) return {4 * face + 2, 2 * v, 2 * w - 1};
+  return {4 * face + 3, 1 - 2 * v, 1 - 2 * w};
+}
+
+MeshPlace in_parent(const MeshPlace& p) {
+  const Index parent = p.face / 4;
+  switch (p.face % 4) {
+    case 0:
+      return {parent, p.v / 2, p.w / 2};
+    case 1:
+      return {parent, (1 + p.v) / 2, p.w / 2};
+    case 2:
+      return {parent, p.v / 2, (1 + p.w) / 2};
+    default:
+      return {parent, (1 - p.v) / 2, (1 - p.w) / 2};
+  }
+}
+
 // 0.0 + takes the sign off zeros.
 
 std::vector<double> split_values(const Topology& coarse, const std::vector<double>& values, std::size_t components) {

@@ -2,6 +2,7 @@
 // Lengths of edges, and values on triangles that are split at the midpoints of their edges.
 
 #include "shape/loop_subdivision.h"
+#include "shape/mesh_place.h"
 
 namespace pelage {
 
@@ -10,6 +11,12 @@ double prevailing_edge(const std::vector<Triangle>& triangles, const std::vector
 
 // When every triangle is split into four at the midpoints of its edges, vertices keep their numbers and the midpoint of
 // edge e gets the number vertex_count + e.
+
+// Triangle f = (a, b, c) becomes 4 f: (a, ab, ca), 4 f + 1: (ab, b, bc), 4 f + 2: (ca, bc, c), 4 f + 3: (bc, ca, ab).
+
+/// The same place on the finer mesh, and on the coarser one.
+MeshPlace in_child(const MeshPlace& place);
+MeshPlace in_parent(const MeshPlace& place);
 
 /// Values at the vertices, `components` for each, linear over the triangles of `coarse`.
 std::vector<double> split_values(const Topology& coarse, const std::vector<double>& values, std::size_t components = 1);
