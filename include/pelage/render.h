@@ -12,15 +12,14 @@
 #include "pelage/image.h"
 #include "pelage/progress.h"
 #include "pelage/triangle_mesh.h"
+#include "pelage/up_axis.h"
 
 namespace pelage {
-
-enum class UpAxis { y, z };
 
 struct PictureOptions {
   int width = 1024;   ///< pixels, 1 to 32768
   int height = 1024;  ///< pixels, 1 to 32768
-  int samples = 32;  ///< rays per pixel; light is smoothed over neighbours, with more rays over fewer, and from 512 not
+  int samples = 32;   ///< rays per pixel at edges; light is smoothed, over fewer pixels with more, from 512 not
   UpAxis up = UpAxis::y;
   double azimuth = 35;    ///< degrees around the up axis; 0 looks from +z (up y) or -y (up z), 90 from +x
   double elevation = 14;  ///< degrees above the horizon, -89 to 89

@@ -3,9 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <atomic>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "render/gloss.h"
 #include "render/sampler.h"
 
@@ -16,104 +17,91 @@ using Eigen::Vector3f;
 
 namespace {
 
-/// What the random numbers of a sample are used for; each use has its own sequence.
-enum Use : std::uint32_t { use_pixel = 1, use_key = 2, use_bounce = 3, use_second_key = 4, use_dither = 5 };
+/// What random numbers are used for beside light; each use has its own sequence.
+enum Use : std::uint32_t { use_pixel = 1, use_dither = 5 };
 
 constexpr double margin = 0.09;  // of the picture around the object
-
-/// Places on the floor are taken a little above it.
-constexpr float above_floor = 1e-4F;
 
 /// Density of a tent of half-width 1 pixel around 0, by inversion.
 float tent(float random) { return random < 0.5F ? std::sqrt(2 * random) - 1 : 1 - std::sqrt(2 - 2 * random); }
 
-/// The same places in all pixels: edges come out clean. Each quarter is centred, lest few rays shift the picture.
+/// The same places in all pixels: edges come out clean. They are centred, lest few rays shift the picture.
 std::vector<Vector2f> view_offsets(std::uint32_t count) {
   std::vector<Vector2f> offsets;
+  Vector2f mean = Vector2f::Zero();
   for (std::uint32_t k = 0; k < count; ++k) {
     const std::array<float, 2> random = scrambled_sobol(k, use_pixel);
     offsets.emplace_back(tent(random[0]), tent(random[1]));
+    mean += offsets.back() / static_cast<float>(count);
   }
-  const std::size_t quarter = std::max(2U, count / 4);
-  for (std::size_t begin = 0; begin < offsets.size(); begin += quarter) {
-    const std::size_t end = std::min(begin + quarter, offsets.size());
-    Vector2f mean = Vector2f::Zero();
-    for (std::size_t k = begin; k < end; ++k) mean += offsets[k] / static_cast<float>(end - begin);
-    for (std::size_t k = begin; k < end; ++k) offsets[k] -= mean;
-  }
+  for (Vector2f& offset : offsets) offset -= mean;
   return offsets;
 }
 
+constexpr std::uint32_t dither_side = 64;
+
 /// Noise of half a step of 8-bit sRGB at light grey, or the even backdrop would show bands.
-float dither(int x, int y) {
+std::vector<float> dither_factors() {
   constexpr float step = 0.01F;  // relative, in linear light
-  const std::uint32_t number = z_order(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
-  return 1 + step * (scrambled_sobol(number, use_dither)[0] - 0.5F);
+  std::vector<float> factors;
+  for (std::uint32_t i = 0; i < dither_side * dither_side; ++i) {
+    const std::uint32_t number = z_order(i % dither_side, i / dither_side);
+    factors.push_back(1 + step * (scrambled_sobol(number, use_dither)[0] - 0.5F));
+  }
+  return factors;
 }
 
-void add_color(float* sums, const Vector3f& color) { Eigen::Map<Vector3f>{sums} += color; }
+/// Whether something at a pixel is far from the mean of what it is at both sides, so that more rays would show more.
+bool bends(const Vector3f& before, const Vector3f& here, const Vector3f& after, float most) {
+  return (before - 2 * here + after).cwiseAbs().maxCoeff() > most;
+}
 
-/// Whether the view rays of a pixel agree so well that more of them show nothing new: inside of the object, away from
-/// its edges and those of the pattern.
-class Agreement {
- public:
-  void add(const Skin& skin, const Vector3f& direction) {
-    if (seen_++ == 0) first_ = skin.normal;
-    low_ = low_.cwiseMin(skin.color);
-    high_ = high_.cwiseMax(skin.color);
-    turned_ = std::max(turned_, 1 - skin.normal.dot(first_));
-    steepest_ = std::min(steepest_, -skin.normal.dot(direction));
-  }
-  bool reached(std::uint32_t rays) const {
-    constexpr float alike = 0.06F, nearly_parallel = 0.03F, edge_on = 0.3F;
-    return seen_ == rays && (high_ - low_).maxCoeff() < alike && turned_ < nearly_parallel && steepest_ > edge_on;
-  }
-
- private:
-  std::uint32_t seen_ = 0;
-  Vector3f first_, low_ = Vector3f::Constant(1e9F), high_ = Vector3f::Constant(-1e9F);
-  float turned_ = 0, steepest_ = 1;
-};
+bool bends(const Sight& before, const Sight& here, const Sight& after) {
+  constexpr float color = 0.2F, normal = 0.1F, position = 0.7F;  // linear light, 1, pixels
+  return bends(before.color, here.color, after.color, color) ||
+         bends(before.guide.normal, here.guide.normal, after.guide.normal, normal) ||
+         bends(before.guide.position, here.guide.position, after.guide.position, position);
+}
 
 }  // namespace
 
-Band::Band(int first_row, int row_count, int columns)
-    : first(first_row),
-      rows(row_count),
-      width(columns),
-      shades(static_cast<std::size_t>(rows) * static_cast<std::size_t>(width)),
-      coat(shades.size()),
-      guides(shades.size()),
-      floor(shades.size()) {}
+/// The pixels of a square that are in the band; right and bottom exclusive.
+struct Painter::Square {
+  int left, top, right, bottom;
+  bool busy;
+};
 
-/// What comes together in one pixel.
-struct Painter::Tally {
-  Shade shade;
-  CoatLight coat;
+/// Where light is traced for a cell of a grid.
+struct Painter::Place {
+  int row;  ///< of the whole picture's cells
+  int column;
+  std::size_t index;
+  Vector3f direction;  ///< in which it is seen
+  SurfacePoint point;
+  bool on_floor;
+};
+
+/// What a pixel shows of one piece of surface.
+struct Painter::Fragment {
+  Hit hit;  ///< of one ray, of this direction
+  Vector3f direction;
   LightGuide guide;
-  FloorLight floor;
-  Agreement agreement;
-  float floor_squares = 0;
+  Vector3f color, normal, view;  ///< sums over the rays; view: their directions
+  float rays = 1;
+};
 
-  void finish(std::uint32_t rays, float pixel_size) {
-    const float share = 1 / static_cast<float>(rays);
-    shade.base *= share;
-    shade.coat *= share;
-    shade.open *= share;
-    shade.gloss *= share;
-    shade.floor *= share;
-    coat.closeness *= pixel_size;
-    floor.closeness *= pixel_size;
-    if (coat.count > 0) {
-      guide.position /= coat.count * pixel_size;
-      guide.normal.normalize();
-    }
-  }
-  void store(Band& band, std::size_t i) const {
-    band.shades[i] = shade;
-    band.coat[i] = coat;
-    band.guides[i] = guide;
-    band.floor[i] = floor;
+struct Painter::View {
+  std::vector<Fragment> fragments;  // nearly always one
+  float missed = 0;                 // rays
+
+  void add(const Hit& hit, const Vector3f& direction, const Vector3f& color, const LightGuide& guide) {
+    constexpr float alike = 0.3F;
+    for (Fragment& f : fragments)
+      if (same_surface(f.guide, guide) > alike) {
+        f.color += color, f.normal += guide.normal, f.view += direction, f.rays += 1;
+        return;
+      }
+    fragments.push_back({hit, direction, guide, color, guide.normal, direction});
   }
 };
 
@@ -123,40 +111,49 @@ Painter::Painter(const RayScene& scene, const std::vector<Vector3f>& points, con
       width_(options.width),
       height_(options.height),
       rays_(rays),
-      tolerance_(0.005F * static_cast<float>(1 << rays.levels)),
       camera_(frame_points(points, options.azimuth, options.elevation,
                            static_cast<double>(options.width) / options.height, margin)),
       studio_(camera_.back, Eigen::Map<const Eigen::Vector3d>(options.background.data()).cast<float>()),
-      offsets_(view_offsets(rays.view)),
       pixel_size_(2 * camera_.tan_x / static_cast<float>(width_) * camera_.position.norm()),
+      tracer_(scene, studio_, pixel_size_),
+      samples_(studio_),
+      floor_key_(studio_.key() * studio_.key_cosine(Vector3f::UnitY())),
+      floor_light_(floor_key_ + studio_.floor_irradiance()),
+      offsets_(view_offsets(rays.view)),
+      dither_(dither_factors()),
       columns_((options.width + tile - 1) / tile) {
-  constexpr std::uint32_t sample_count = 1 << 14;  // stays in the cache; neighbours do not meet it again
-  for (std::uint32_t i = 0; i < sample_count; ++i)
-    samples_.push_back({studio_.key_direction(scrambled_sobol(i, use_key)),
-                        studio_.key_direction(scrambled_sobol(i, use_second_key)),
-                        disc_point(scrambled_sobol(i, use_bounce))});
   find_busy(points, triangles);
 }
 
 void Painter::find_busy(const std::vector<Vector3f>& points, const std::vector<Triangle>& triangles) {
-  std::vector<Vector2f> pixels;
-  for (const Vector3f& point : points) {
-    const Vector2f p = camera_.project(point);
-    pixels.emplace_back(static_cast<float>(width_) * (p.x() + 1) / 2, static_cast<float>(height_) * (1 - p.y()) / 2);
-  }
+  std::vector<Vector2f> pixels(points.size());
+  parallel_for(points.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vector2f p = camera_.project(points[i]);
+      pixels[i] = {static_cast<float>(width_) * (p.x() + 1) / 2, static_cast<float>(height_) * (1 - p.y()) / 2};
+    }
+  });
   const int rows = (height_ + tile - 1) / tile;
   busy_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows));
+  parallel_for(triangles.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Triangle& t = triangles[i];
+      mark_busy(pixels[t[0]].cwiseMin(pixels[t[1]]).cwiseMin(pixels[t[2]]),
+                pixels[t[0]].cwiseMax(pixels[t[1]]).cwiseMax(pixels[t[2]]), rows);
+    }
+  });
+}
+
+/// What lies in a rectangle of pixels.
+void Painter::mark_busy(const Vector2f& low, const Vector2f& high, int rows) {
+  constexpr float reach = 1.5F;  // of the view rays of a pixel, and rounding
   const auto tile_of = [](float pixel, int tiles) {
     return static_cast<int>(std::clamp(pixel / tile, 0.0F, static_cast<float>(tiles - 1)));
   };
-  constexpr float reach = 1.5F;  // of the view rays of a pixel, and rounding
-  for (const Triangle& t : triangles) {
-    const Vector2f low = pixels[t[0]].cwiseMin(pixels[t[1]]).cwiseMin(pixels[t[2]]).array() - reach;
-    const Vector2f high = pixels[t[0]].cwiseMax(pixels[t[1]]).cwiseMax(pixels[t[2]]).array() + reach;
-    for (int row = tile_of(low.y(), rows); row <= tile_of(high.y(), rows); ++row)
-      for (int column = tile_of(low.x(), columns_); column <= tile_of(high.x(), columns_); ++column)
-        busy_[static_cast<std::size_t>(row * columns_ + column)] = 1;
-  }
+  const int right = tile_of(high.x() + reach, columns_), bottom = tile_of(high.y() + reach, rows);
+  for (int row = tile_of(low.y() - reach, rows); row <= bottom; ++row)
+    for (int column = tile_of(low.x() - reach, columns_); column <= right; ++column)
+      std::atomic_ref(busy_[static_cast<std::size_t>(row * columns_ + column)]).store(1, std::memory_order_relaxed);
 }
 
 Vector2f Painter::place(int x, int y, const Vector2f& offset) const {
@@ -164,49 +161,161 @@ Vector2f Painter::place(int x, int y, const Vector2f& offset) const {
   return {2 * pixel.x() / static_cast<float>(width_) - 1, 1 - 2 * pixel.y() / static_cast<float>(height_)};
 }
 
-const Painter::LightSample& Painter::light_sample(int x, int y, float count) const {
-  const std::uint32_t number = z_order(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
-  return samples_[(number * std::bit_ceil(rays_.light) + static_cast<std::uint32_t>(count)) % samples_.size()];
+Vector3f Painter::direction(int x, int y, const Vector2f& offset) const {
+  const Vector2f p = place(x, y, offset);
+  return camera_.direction(p.x(), p.y());
 }
 
-/// Light that comes to `origin` from `direction`, and if what sends it is nearer than 1 / `closeness`, that.
-Vector3f Painter::arriving(const Vector3f& origin, const Vector3f& direction, const LightSample& sample,
-                           float& closeness) const {
-  const Vector3f& to_key = sample.to_second_key;
-  if (const auto hit = scene_.intersect(origin, direction)) {
-    closeness = std::max(closeness, 1 / (hit->position - origin).norm());
-    const float cosine = hit->normal.dot(to_key);
-    return studio_.bounced(hit->color, cosine > 0 && !scene_.occluded(hit->lifted, to_key) ? cosine : 0);
-  }
-  if (direction.y() >= 0) return studio_.room(direction);
-  Vector3f floor = origin - direction * (origin.y() / direction.y());
-  closeness = std::max(closeness, 1 / (floor - origin).norm());
-  floor.y() = above_floor;
-  return scene_.occluded(floor, to_key) ? studio_.bounced(studio_.paper(), 0) : studio_.open(direction);
+Band Painter::band(int first_row, int rows) const {
+  return {first_row,
+          rows,
+          width_,
+          std::vector<Sight>(static_cast<std::size_t>(rows) * static_cast<std::size_t>(width_)),
+          {width_, rows, rays_.cell, 0},
+          {width_, rows, rays_.cell, floor_stretch()}};
 }
 
-void Painter::light_coat(const SurfacePoint& point, const Vector3f& direction, const LightSample& sample,
-                         Tally& tally) const {
-  std::array<float, 8>& light = tally.coat.light;
-  const float cosine = point.normal.dot(sample.to_key);
-  if (cosine > 0) {
-    const float gloss = highlight(point.normal, -direction, sample.to_key);
-    light[CoatLight::open_key] += cosine;
-    light[CoatLight::open_gloss] += gloss;
-    const float free = scene_.distance(point.lifted, sample.to_key);
-    tally.coat.closeness = std::max(tally.coat.closeness, 1 / free);
-    if (std::isinf(free)) {
-      light[CoatLight::key] += cosine;
-      light[CoatLight::gloss] += gloss;
+Painter::Square Painter::square(const Band& band, int column, int row) const {
+  return {column * tile, std::max(row * tile, band.first), std::min((column + 1) * tile, width_),
+          std::min((row + 1) * tile, band.first + band.rows), busy(column, row)};
+}
+
+SurfacePoint Painter::surface_point(const Hit& hit, const Vector3f& direction) const {
+  return scene_.surface_point(scene_.skin(direction, hit), hit);
+}
+
+LightGuide Painter::guide(const Skin& skin, const Hit& hit) const {
+  return {scene_.position(hit) / pixel_size_, skin.normal};
+}
+
+void Painter::find_sights(Band& band, const Square& s) const {
+  std::array<Vector3f, tile> directions;
+  std::array<Hit, tile> hits;
+  const auto count = static_cast<std::size_t>(s.right - s.left);
+  for (int y = s.top; y < s.bottom; ++y) {
+    for (std::size_t i = 0; i < count; ++i) directions[i] = direction(s.left + static_cast<int>(i), y);
+    scene_.intersect(camera_.position, {directions.data(), count}, {hits.data(), count});
+    for (std::size_t i = 0; i < count; ++i) {
+      if (hits[i].triangle == Hit::nothing) continue;
+      const Skin skin = scene_.skin(directions[i], hits[i]);
+      band.sight(s.left + static_cast<int>(i), y) = {hits[i], skin.color, guide(skin, hits[i])};
     }
   }
-  const Vector3f outward = hemisphere_direction(point.normal, sample.bounce);
-  Vector3f room = -studio_.open(outward);
-  if (outward.dot(point.face_normal) > 0) room += arriving(point.lifted, outward, sample, tally.coat.closeness);
-  add_color(light.data() + CoatLight::room, room);
-  tally.coat.count += 1;
-  tally.guide.position += point.position;
-  tally.guide.normal += point.normal;
+}
+
+/// The first pixel of each cell that shows the coat, and the first that shows the floor.
+void Painter::find_places(const Band& band, const Square& s, std::vector<Place>& coat,
+                          std::vector<Place>& floor) const {
+  const int cell = rays_.cell;
+  const auto find = [&](int left, int top, bool seen) {
+    for (int y = top; y < std::min(top + cell, s.bottom); ++y)
+      for (int x = left; x < std::min(left + cell, s.right); ++x) {
+        const Sight& sight = band.sight(x, y);
+        if (sight.seen() != seen) continue;
+        const Vector3f view = direction(x, y);
+        Place place{y / cell, x / cell, band.coat.index(x / cell, (y - band.first) / cell), view, {}, !seen};
+        if (seen)
+          place.point = surface_point(sight.hit, view);
+        else if (Vector3f position; reaches_floor(view, position))
+          place.point = floor_point(position);
+        else
+          return;
+        (seen ? coat : floor).push_back(place);
+        return;
+      }
+  };
+  for (int y = s.top; y < s.bottom; y += cell)
+    for (int x = s.left; x < s.right; x += cell) {
+      if (s.busy) find(x, y, true);
+      find(x, y, false);
+    }
+}
+
+float Painter::add_room(const Place& p, const LightSample& sample, Light& light) const {
+  return p.on_floor ? tracer_.add_floor_room(p.point, sample, light) : tracer_.add_room(p.point, sample, light);
+}
+
+/// The first rays of all places, at least 64 in a square, tell how many are worth their time.
+void Painter::add_first_light(LightGrid& grid, const std::vector<Place>& places) const {
+  const float tolerance = 0.0025F * static_cast<float>(1 << rays_.levels);  // of noise before it is smoothed
+  const auto cell = static_cast<std::uint32_t>(rays_.cell);
+  std::uint32_t done = 0, next = std::clamp(64 * cell * cell / (tile * tile), 1U, rays_.light);
+  float squares = 0, variance = 1;  // of the mean of a place, at most
+  for (; done < rays_.light && variance > tolerance * tolerance; next = std::min(2 * done, rays_.light)) {
+    for (const Place& p : places)
+      for (std::uint32_t k = done; k < next; ++k) {
+        const LightSample& sample = samples_(p.column, p.row, rays_.light, k);
+        squares += tracer_.add_lamp(p.point, p.direction, sample, grid.lights[p.index]);
+        squares += add_room(p, sample, grid.lights[p.index]);
+      }
+    done = next;
+    variance = squares / static_cast<float>(places.size() * done * done);
+  }
+}
+
+void Painter::add_more_light(LightGrid& grid, const std::vector<Place>& places) const {
+  for (const Place& p : places) {
+    Light& light = grid.lights[p.index];
+    const auto done = static_cast<std::uint32_t>(light.room_samples);
+    const auto [lamp, room] = rays_wanted(grid, p.index, rays_.light);
+    if (lamp > rays_.light)
+      for (std::uint32_t k = done; k < lamp; ++k)
+        tracer_.add_lamp(p.point, p.direction, samples_(p.column, p.row, lamp, k), light);
+    if (room > rays_.light)
+      for (std::uint32_t k = done; k < room; ++k) add_room(p, samples_(p.column, p.row, room, k), light);
+    light.make_mean();
+  }
+}
+
+void Painter::look(Band& band, int column, int row) const {
+  const Square s = square(band, column, row);
+  if (s.busy) find_sights(band, s);
+  std::vector<Place> coat, floor;
+  find_places(band, s, coat, floor);
+  for (const Place& p : coat) band.coat.guides[p.index] = {p.point.position / pixel_size_, p.point.normal};
+  add_first_light(band.coat, coat);
+  add_first_light(band.floor, floor);
+}
+
+void Painter::light_more(Band& band, int column, int row) const {
+  std::vector<Place> coat, floor;
+  find_places(band, square(band, column, row), coat, floor);
+  add_more_light(band.coat, coat);
+  add_more_light(band.floor, floor);
+}
+
+/// Whether one ray may not be enough for a pixel: at edges of the object and of its pattern.
+bool Painter::is_rough(const Band& band, int x, int y) const {
+  if (rays_.view == 1) return false;
+  if (rays_.levels == 0) return true;
+  const Sight& here = band.sight(x, y);
+  for (const auto& [i, j] : {std::pair{1, 0}, {0, 1}, {1, 1}, {1, -1}}) {
+    if (!band.contains(x - i, y - j) || !band.contains(x + i, y + j)) continue;
+    const Sight &before = band.sight(x - i, y - j), &after = band.sight(x + i, y + j);
+    if (before.seen() != here.seen() || after.seen() != here.seen()) return true;
+    if (here.seen() && bends(before, here, after)) return true;
+  }
+  return false;
+}
+
+Painter::View Painter::full_view(int x, int y) const {
+  View view;
+  std::array<Vector3f, RayScene::widest_bundle> directions;
+  std::array<Hit, RayScene::widest_bundle> hits;
+  for (std::size_t done = 0; done < offsets_.size(); done += directions.size()) {
+    const std::size_t count = std::min(directions.size(), offsets_.size() - done);
+    for (std::size_t k = 0; k < count; ++k) directions[k] = direction(x, y, offsets_[done + k]);
+    scene_.intersect(camera_.position, {directions.data(), count}, {hits.data(), count});
+    for (std::size_t k = 0; k < count; ++k) {
+      if (hits[k].triangle == Hit::nothing) {
+        view.missed += 1;
+        continue;
+      }
+      const Skin skin = scene_.skin(directions[k], hits[k]);
+      view.add(hits[k], directions[k], skin.color, guide(skin, hits[k]));
+    }
+  }
+  return view;
 }
 
 /// The highlight as a mean over the key lamp.
@@ -220,25 +329,39 @@ float Painter::gloss(const Vector3f& normal, const Vector3f& view) const {
   return sum;
 }
 
-Shade Painter::coat_shade(const Skin& skin, const Vector3f& direction) const {
-  Shade shade;
-  shade.coat = skin.color * studio_.key_cosine(skin.normal);
-  shade.gloss = gloss(skin.normal, -direction);
-  const float mirrored = sheen(-skin.normal.dot(direction));
-  shade.open = (1 - mirrored) * skin.color + Vector3f::Constant(mirrored);
-  shade.base = shade.open.cwiseProduct(studio_.open_irradiance(skin.normal));
-  return shade;
+/// Of a place that none of a grid's lies near.
+Light Painter::own_light(const Place& place) const {
+  Light light;
+  const std::uint32_t count = 8 * rays_.light;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const LightSample& sample = samples_(place.column, place.row, count, k);
+    tracer_.add_lamp(place.point, place.direction, sample, light);
+    add_room(place, sample, light);
+  }
+  light.make_mean();
+  return light;
 }
 
-/// How the object changes the floor's light, as a share of it, per colour.
-Vector3f Painter::floor_change(const Vector3f& floor, const LightSample& sample, float& closeness) const {
-  const Vector3f upward = hemisphere_direction(Vector3f::UnitY(), sample.bounce);
-  const Vector3f open_key = sample.to_key.y() * studio_.key(), open_room = studio_.open(upward);
-  Vector3f change = arriving(floor, upward, sample, closeness) - open_room;
-  const float free = scene_.distance(floor, sample.to_key);
-  if (!std::isinf(free)) change -= open_key;
-  closeness = std::max(closeness, 1 / free);
-  return change.cwiseQuotient(open_key + open_room);
+Vector3f Painter::coat_color(const Band& band, const Fragment& f, int x, int y) const {
+  const Vector3f color = f.color / f.rays, normal = f.normal.normalized(), view = f.view.normalized();
+  Light light = light_at(band.coat, x, y - band.first, &f.guide);
+  if (!light.traced()) light = own_light({y, x, 0, f.direction, surface_point(f.hit, f.direction), false});
+  const float mirrored = sheen(-normal.dot(view));
+  const Vector3f sent_on = (1 - mirrored) * color + Vector3f::Constant(mirrored);
+  const Vector3f key = light.visible_key() * studio_.key_cosine(normal) * color +
+                       Vector3f::Constant(light.visible_gloss() * gloss(normal, -view));
+  return studio_.key().cwiseProduct(key) + sent_on.cwiseProduct(studio_.open_irradiance(normal) + light.room);
+}
+
+Vector3f Painter::paper_color(const Band& band, int x, int y) const {
+  const Vector2f middle = place(x, y, Vector2f::Zero());
+  const Vector3f paper = studio_.backdrop(middle.x(), middle.y()) * studio_.paper(), view = direction(x, y);
+  Vector3f floor;
+  if (!reaches_floor(view, floor)) return paper;
+  Light light = light_at(band.floor, x, y - band.first, nullptr);
+  if (!light.traced()) light = own_light({y, x, 0, view, floor_point(floor), true});
+  const Vector3f change = light.room - (1 - light.visible_key()) * floor_key_;
+  return paper.cwiseProduct(Vector3f::Ones() + change.cwiseQuotient(floor_light_));
 }
 
 /// Where a view ray that misses the object meets the floor, if that is so near that the object can change its light.
@@ -246,120 +369,39 @@ bool Painter::reaches_floor(const Vector3f& direction, Vector3f& floor) const {
   constexpr float far_away = 4;  // object sizes: no shadow reaches there
   if (direction.y() >= 0 || camera_.position.y() <= 0) return false;
   floor = camera_.position - direction * (camera_.position.y() / direction.y());
-  floor.y() = above_floor;
   return floor.norm() <= far_away;
 }
 
-/// Light that changes over a few pixels cannot be smoothed, but that is so in few places.
-template <class Light>
-bool Painter::wants(const Light& light) const {
-  constexpr float near = 24, more = 4;  // pixels, times
-  return light.count < static_cast<float>(rays_.light) * (near * pixel_size_ * light.closeness > 1 ? more : 1);
+/// As the mean of many rays would be where it bends little: the rays' tent has the variance 1/6 in each direction.
+Vector3f Painter::blurred_coat(const Band& band, int x, int y) const {
+  const Vector3f& here = band.sight(x, y).color;
+  Vector3f bend = Vector3f::Zero();
+  for (const auto& [i, j] : {std::pair{1, 0}, {0, 1}})
+    if (band.contains(x - i, y - j) && band.contains(x + i, y + j))
+      bend += band.sight(x - i, y - j).color - 2 * here + band.sight(x + i, y + j).color;
+  return (here + bend / 12).cwiseMax(0);
 }
 
-/// Light where a view ray of pixel (x, y) meets the floor, if it does.
-void Painter::light_floor(int x, int y, const Vector3f& direction, Tally& tally) const {
-  Vector3f floor;
-  if (!reaches_floor(direction, floor)) return;
-  const Vector3f change = floor_change(floor, light_sample(x, y, tally.floor.count), tally.floor.closeness);
-  add_color(tally.floor.light.data(), change);
-  tally.floor_squares += change.squaredNorm();
-  tally.floor.count += 1;
+Vector3f Painter::middle_color(const Band& band, int x, int y) const {
+  const Sight& sight = band.sight(x, y);
+  if (!sight.seen()) return paper_color(band, x, y);
+  const Vector3f view = direction(x, y);
+  return coat_color(band, {sight.hit, view, sight.guide, blurred_coat(band, x, y), sight.guide.normal, view}, x, y);
 }
 
-/// The backdrop at a place of the picture, as a view ray sees it that misses the object.
-void Painter::add_paper(const Vector2f& place, const Vector3f& direction, Shade& shade) const {
-  const float brightness = studio_.backdrop(place.x(), place.y());
-  shade.base += brightness * studio_.paper();
-  Vector3f floor;
-  if (reaches_floor(direction, floor)) shade.floor += brightness;
-}
-
-void Painter::add_coat(int x, int y, const Vector3f& direction, const Hit& hit, Tally& tally) const {
-  const Skin skin = scene_.skin(direction, hit);
-  const Shade shade = coat_shade(skin, direction);
-  tally.shade.base += shade.base;
-  tally.shade.coat += shade.coat;
-  tally.shade.open += shade.open;
-  tally.shade.gloss += shade.gloss;
-  tally.agreement.add(skin, direction);
-  if (wants(tally.coat))
-    light_coat(scene_.surface_point(skin, hit), direction, light_sample(x, y, tally.coat.count), tally);
-}
-
-Painter::Tally Painter::trace_object(int x, int y) const {
-  Tally tally;
-  const std::uint32_t bundle = std::clamp<std::uint32_t>(rays_.view / 4, 1, RayScene::widest_bundle);
-  std::array<Vector3f, RayScene::widest_bundle> directions;
-  std::array<Hit, RayScene::widest_bundle> hits;
-  std::uint32_t done = 0;
-  while (done < rays_.view && !(4 * done >= rays_.view && tally.agreement.reached(done))) {
-    const std::uint32_t count = std::min(bundle, rays_.view - done);
-    for (std::uint32_t k = 0; k < count; ++k) directions[k] = direction_to(place(x, y, offsets_[done + k]));
-    scene_.intersect(camera_.position, {directions.data(), count}, {hits.data(), count});
-    for (std::uint32_t k = 0; k < count; ++k)
-      if (hits[k].triangle != Hit::nothing) {
-        add_coat(x, y, directions[k], hits[k], tally);
-      } else {
-        add_paper(place(x, y, offsets_[done + k]), directions[k], tally.shade);
-        if (wants(tally.floor)) light_floor(x, y, directions[k], tally);
-      }
-    done += count;
-  }
-  tally.finish(done, pixel_size_);
-  return tally;
-}
-
-void Painter::trace(Band& band, int column, int row) const {
-  const int left = column * tile, right = std::min(left + tile, width_);
-  const int top = std::max(row * tile, band.first), bottom = std::min((row + 1) * tile, band.first + band.rows);
-  if (!busy(column, row)) return trace_floor(band, left, top, right, bottom);
-  for (int y = top; y < bottom; ++y)
-    for (int x = left; x < right; ++x) trace_object(x, y).store(band, band.index(x, y));
-}
-
-/// Where there is no object to be seen. The first rays of all pixels of the square tell how many it needs.
-void Painter::trace_floor(Band& band, int left, int top, int right, int bottom) const {
-  std::array<Tally, std::size_t{tile} * tile> tallies;
-  const auto light = [&](std::uint32_t begin, std::uint32_t end) {
-    double squares = 0;
-    for (int y = top, i = 0; y < bottom; ++y)
-      for (int x = left; x < right; ++x, ++i) {
-        Tally& tally = tallies[static_cast<std::size_t>(i)];
-        for (std::uint32_t ray = begin; ray < end; ++ray)
-          light_floor(x, y, direction_to(place(x, y, offsets_[ray])), tally);
-        squares += tally.floor_squares / 3;
-      }
-    return squares / ((right - left) * (bottom - top));
-  };
-  std::uint32_t done = 0, next = (rays_.light + 3) / 4;
-  double variance = 1;  // of the mean of a pixel, at most
-  for (; done < rays_.light && variance > tolerance_ * tolerance_; next = std::min(2 * done, rays_.light)) {
-    variance = light(done, next) / (next * next);
-    done = next;
-  }
-  for (int y = top, i = 0; y < bottom; ++y)
-    for (int x = left; x < right; ++x, ++i) {
-      Tally& tally = tallies[static_cast<std::size_t>(i)];
-      const Vector2f middle = place(x, y, Vector2f::Zero());
-      add_paper(middle, direction_to(middle), tally.shade);
-      tally.finish(1, pixel_size_);
-      tally.store(band, band.index(x, y));
-    }
+Vector3f Painter::mean_color(const Band& band, int x, int y) const {
+  const View view = full_view(x, y);
+  Vector3f sum = Vector3f::Zero();
+  for (const Fragment& f : view.fragments) sum += f.rays * coat_color(band, f, x, y);
+  if (view.missed > 0) sum += view.missed * paper_color(band, x, y);
+  return sum / static_cast<float>(offsets_.size());
 }
 
 Vector3f Painter::color(const Band& band, int x, int y) const {
-  const std::size_t i = band.index(x, y);
-  const Shade& shade = band.shades[i];
-  Vector3f color = shade.base;
-  if (const CoatLight& light = band.coat[i]; light.count > 0) {
-    color += studio_.key().cwiseProduct(shade.coat * light.visible_key() +
-                                        Vector3f::Constant(shade.gloss * light.visible_gloss()));
-    color += shade.open.cwiseProduct(light.room_light());
-  }
-  if (const FloorLight& light = band.floor[i]; light.count > 0)
-    color += shade.floor * studio_.paper().cwiseProduct(light.change());
-  return color.cwiseMax(0) * dither(x, y);
+  const bool rough = busy(x / tile, y / tile) && is_rough(band, x, y);
+  const Vector3f color = rough ? mean_color(band, x, y) : middle_color(band, x, y);
+  const auto column = static_cast<std::uint32_t>(x) % dither_side, row = static_cast<std::uint32_t>(y) % dither_side;
+  return color.cwiseMax(0) * dither_[row * dither_side + column];
 }
 
 }  // namespace pelage

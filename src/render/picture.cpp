@@ -17,17 +17,33 @@ using Eigen::Vector3f;
 
 namespace {
 
+/// A box around all that extend(index below n, box) puts into its part.
+template <class Extend>
+Eigen::AlignedBox3d joined(std::size_t n, const Extend& extend) {
+  std::vector<Eigen::AlignedBox3d> parts(chunk_count(n));
+  parallel_for(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) extend(i, parts[begin / default_chunk]);
+  });
+  Eigen::AlignedBox3d box;
+  for (const Eigen::AlignedBox3d& part : parts) box.extend(part);
+  return box;
+}
+
 /// The object turned upright, scaled to a bounding sphere of diameter 1 and put on the ground y = 0.
 std::vector<Vector3f> stand_upright(const TriangleMesh& mesh, const Eigen::Matrix3d& rotation) {
-  Eigen::AlignedBox3d box;
-  for (const Triangle& t : mesh.triangles)
-    for (std::int32_t v : t) box.extend(rotation * Eigen::Map<const Eigen::Vector3d>(mesh.points[v].data()));
+  const auto turned = [&](std::size_t v) -> Eigen::Vector3d {
+    return rotation * Eigen::Map<const Eigen::Vector3d>(mesh.points[v].data());
+  };
+  const Eigen::AlignedBox3d box = joined(mesh.triangles.size(), [&](std::size_t i, Eigen::AlignedBox3d& part) {
+    for (std::int32_t v : mesh.triangles[i]) part.extend(turned(static_cast<std::size_t>(v)));
+  });
   const double size = box.isEmpty() ? 0 : box.diagonal().norm();
   if (!(size > 0) || !std::isfinite(size)) throw Error(Fault::input, "the mesh has no extent; there is nothing to see");
   const Eigen::Vector3d foot(box.center().x(), box.min().y(), box.center().z());
-  std::vector<Vector3f> points;
-  for (const Point& p : mesh.points)
-    points.push_back(((rotation * Eigen::Map<const Eigen::Vector3d>(p.data()) - foot) / size).cast<float>());
+  std::vector<Vector3f> points(mesh.points.size());
+  parallel_for(points.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) points[v] = ((turned(v) - foot) / size).cast<float>();
+  });
   return points;
 }
 
@@ -78,12 +94,16 @@ struct Part {
   }
 };
 
-/// With many rays there is less noise to be smoothed, and with very many none.
+/// With many rays there is less noise to be smoothed, and with very many none; very few are spared places instead.
 Rays rays_of(int samples) {
   const auto count = static_cast<std::uint32_t>(samples);
-  Rays rays{std::max(1U, count / 2), std::max(1U, count / 8), 0};
-  constexpr std::uint32_t enough = 64;
-  for (std::uint32_t light = rays.light; light < enough && rays.levels < 4; light *= 2) ++rays.levels;
+  Rays rays{std::max(1U, count / 2), std::max(1U, count / 8), 1, 0};
+  constexpr std::uint32_t enough = 64, few = 2;
+  if (rays.light >= enough) return rays;
+  if (rays.light < few) return {rays.view, 4 * rays.light, 4, 3};
+  rays.cell = 2;
+  rays.levels = 1;
+  for (std::uint32_t light = 2 * rays.light; light < enough && rays.levels < 4; light *= 2) ++rays.levels;
   return rays;
 }
 
@@ -95,7 +115,8 @@ class Picture {
         image_{options.width, options.height, std::vector<float>(std::size_t{3} * options.width * options.height)} {}
 
   Image paint(const Part& whole) {
-    const int tiles = std::max(most_pixels / image_.width, 4 * light_reach(rays_.levels)) / Painter::tile;
+    const int reach = light_reach(rays_.levels, rays_.cell);
+    const int tiles = std::max(most_pixels / image_.width, 4 * reach) / Painter::tile;
     const int rows = std::max(1, tiles) * Painter::tile;
     const double all = cost(0, image_.height);
     for (int top = 0; top < image_.height; top += rows) {
@@ -106,7 +127,7 @@ class Picture {
   }
 
  private:
-  static constexpr int most_pixels = 1 << 19;  // at a time; each takes 200 bytes
+  static constexpr int most_pixels = 1 << 20;  // at a time; each takes 80 bytes
 
   /// Time that rows take, in units of that of a square without the object.
   double cost(int top, int bottom) const {
@@ -119,40 +140,46 @@ class Picture {
   }
 
   void paint_rows(int top, int bottom, const Part& part) {
-    constexpr double traced = 0.8, coat_smoothed = 0.9;  // shares of the time
+    constexpr double looked = 0.43, lit = 0.66, smoothed = 0.75;  // shares of the time
     // Whole squares, in which the painter looks for what is worth its rays.
-    const int reach = (light_reach(rays_.levels) + Painter::tile - 1) / Painter::tile * Painter::tile;
+    const int reach = (light_reach(rays_.levels, rays_.cell) + Painter::tile - 1) / Painter::tile * Painter::tile;
     const int first = std::max(0, top - reach), last = std::min(image_.height, bottom + reach);
-    Band band(first, last - first, image_.width);
-    trace(band, part.part(0, traced));
-    const auto smooth = [&](auto& light, const std::vector<LightGuide>& guides, const Part& share) {
-      smooth_light(light, guides, band.width, painter_.floor_stretch(), rays_.levels,
-                   [&](double fraction) { share.report(fraction); });
-    };
-    smooth(band.coat, band.guides, part.part(traced, coat_smoothed));
-    smooth(band.floor, {}, part.part(coat_smoothed, 1));
-    parallel_for(static_cast<std::size_t>(bottom - top) * band.width, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const int x = static_cast<int>(i) % band.width, y = top + static_cast<int>(i) / band.width;
-        const std::size_t pixel = static_cast<std::size_t>(y) * band.width + x;
-        Eigen::Map<Vector3f>(image_.rgb.data() + 3 * pixel) = painter_.color(band, x, y);
-      }
-    });
+    Band band = painter_.band(first, last - first);
+    for_squares(first, last, part.part(0, looked), [&](int column, int row) { painter_.look(band, column, row); });
+    find_closeness(band.coat);
+    find_closeness(band.floor);
+    for_squares(first, last, part.part(looked, lit),
+                [&](int column, int row) { painter_.light_more(band, column, row); });
+    const Part smoothing = part.part(lit, smoothed);
+    smooth_light(band.coat, rays_.levels, [&](double fraction) { smoothing.report(fraction / 2); });
+    smooth_light(band.floor, rays_.levels, [&](double fraction) { smoothing.report((1 + fraction) / 2); });
+    for_squares(top, bottom, part.part(smoothed, 1), [&](int column, int row) { color(band, column, row); });
   }
 
-  void trace(Band& band, const Part& part) const {
-    const int columns = (band.width + Painter::tile - 1) / Painter::tile;
-    const int first = band.first / Painter::tile, last = (band.first + band.rows - 1) / Painter::tile;
-    const std::size_t tiles = static_cast<std::size_t>(columns) * (last - first + 1);
+  void color(const Band& band, int column, int row) {
+    const int right = std::min((column + 1) * Painter::tile, image_.width),
+              bottom = std::min((row + 1) * Painter::tile, image_.height);
+    for (int y = row * Painter::tile; y < bottom; ++y)
+      for (int x = column * Painter::tile; x < right; ++x)
+        Eigen::Map<Vector3f>(image_.rgb.data() + 3 * (static_cast<std::size_t>(y) * image_.width + x)) =
+            painter_.color(band, x, y);
+  }
+
+  /// Calls visit(column, row) for all squares of these rows, from several threads.
+  template <class Visit>
+  void for_squares(int top, int bottom, const Part& part, Visit&& visit) const {
+    const int columns = (image_.width + Painter::tile - 1) / Painter::tile;
+    const int first = top / Painter::tile, last = (bottom - 1) / Painter::tile;
+    const std::size_t squares = static_cast<std::size_t>(columns) * (last - first + 1);
     // Neighbours take equally long; with strides between them every portion takes as long as any other.
-    const std::size_t stride = coprime_stride(tiles);
-    const std::size_t few = std::min<std::size_t>(64, 1024 / rays_.view);  // squares between reports
+    const std::size_t stride = coprime_stride(squares);
+    const std::size_t few = std::min<std::size_t>(64, 1024 / rays_.view);  // between reports
     const std::size_t portion = std::max(few, static_cast<std::size_t>(concurrency()));
-    for (std::size_t begin = 0; begin < tiles; begin += portion) {
-      part.report(static_cast<double>(begin) / static_cast<double>(tiles));
-      parallel_chunks(std::min(portion, tiles - begin), [&](std::size_t i) {
-        const auto t = static_cast<int>((begin + i) * stride % tiles);
-        painter_.trace(band, t % columns, first + t / columns);
+    for (std::size_t begin = 0; begin < squares; begin += portion) {
+      part.report(static_cast<double>(begin) / static_cast<double>(squares));
+      parallel_chunks(std::min(portion, squares - begin), [&](std::size_t i) {
+        const auto s = static_cast<int>((begin + i) * stride % squares);
+        visit(s % columns, first + s / columns);
       });
     }
   }
@@ -169,10 +196,13 @@ class Picture {
   Image image_;
 };
 
-/// The part of the time that goes into the tree of the rays.
+/// The part of the time that goes into the tree of the rays, which is built by one thread: a triangle of it takes as
+/// long as half a pixel of the usual quality.
 double building_share(std::size_t triangles, const PictureOptions& options) {
-  const double rays = static_cast<double>(options.width) * options.height * options.samples / 8;
-  return static_cast<double>(triangles) / (static_cast<double>(triangles) + rays);
+  constexpr int usual_samples = 32;
+  const double rays = 1 + static_cast<double>(options.samples) / usual_samples;
+  const double painting = static_cast<double>(options.width) * options.height * rays / concurrency();
+  return static_cast<double>(triangles) / (static_cast<double>(triangles) + painting);
 }
 
 /// `model` is made if it does not stand as wanted.

@@ -32,8 +32,11 @@ std::vector<Vector3f> vertex_vectors(const TriangleMesh& mesh, const char* name)
   const Attribute* attribute = mesh.find(name);
   std::vector<Vector3f> vectors;
   if (!attribute || attribute->domain != Domain::vertex || attribute->components < 3) return vectors;
-  for (std::size_t i = 0; i < attribute->values.size(); i += attribute->components)
-    vectors.push_back(Eigen::Map<const Eigen::Vector3d>(attribute->values.data() + i).cast<float>());
+  vectors.resize(attribute->values.size() / attribute->components);
+  parallel_for(vectors.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      vectors[i] = Eigen::Map<const Eigen::Vector3d>(&attribute->values[i * attribute->components]).cast<float>();
+  });
   return vectors;
 }
 
@@ -167,6 +170,8 @@ float RayScene::distance(const Vector3f& origin, const Vector3f& direction) cons
   return query.ray.tfar;
 }
 
+Vector3f RayScene::position(const Hit& hit) const { return blend(points_, triangles_[hit.triangle], hit); }
+
 Skin RayScene::skin(const Vector3f& direction, const Hit& hit) const {
   const Triangle& t = triangles_[hit.triangle];
   Skin skin;
@@ -182,7 +187,7 @@ Skin RayScene::skin(const Vector3f& direction, const Hit& hit) const {
 
 SurfacePoint RayScene::surface_point(const Skin& skin, const Hit& hit) const {
   const Triangle& t = triangles_[hit.triangle];
-  SurfacePoint point{skin, blend(points_, t, hit), {}};
+  SurfacePoint point{skin, position(hit), {}};
   point.lifted = point.position;
   const Vector3f smooth = normals_.empty() ? Vector3f::Zero().eval() : blend(normals_, t, hit);
   if (smooth.squaredNorm() > least_normal) {

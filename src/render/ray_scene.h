@@ -52,6 +52,7 @@ class RayScene {
   /// How far the surface is, infinite if it is not met.
   float distance(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const;
 
+  Eigen::Vector3f position(const Hit& hit) const;
   /// What a ray of this direction found at a hit.
   Skin skin(const Eigen::Vector3f& direction, const Hit& hit) const;
   SurfacePoint surface_point(const Skin& skin, const Hit& hit) const;

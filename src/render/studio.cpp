@@ -26,6 +26,8 @@ void make_frame(const Vector3f& n, Vector3f& x, Vector3f& y) {
 
 constexpr float lamp_radius = 0.30F;  // of a lamp at distance 1: shadows with wide soft edges
 
+const Vector3f wall(0.30F, 0.31F, 0.33F), ceiling(0.53F, 0.55F, 0.57F);
+
 /// The part of the room's light that still arrives after two bounces, as a share of a white surface: without it
 /// creases would go black. A guess that is right for the middle of a matt half-closed hollow.
 constexpr float remaining_light = 0.22F;
@@ -145,12 +147,16 @@ Vector3f Studio::bounced(const Vector3f& color, float key_cosine) const {
   return color.cwiseProduct(Vector3f::Constant(remaining_light) + key_cosine * key_);
 }
 
-Vector3f Studio::room(const Vector3f& direction) const {
-  const Vector3f wall(0.30F, 0.31F, 0.33F), ceiling(0.53F, 0.55F, 0.57F);
-  const float height = std::clamp(direction.y(), 0.0F, 1.0F);
-  const float rim = smooth_step(0.80F, 0.97F, direction.dot(to_rim_));
-  return wall + height * (ceiling - wall) + Vector3f::Constant(1.6F * rim);
+Vector3f Studio::walls(const Vector3f& direction) const {
+  return wall + std::clamp(direction.y(), 0.0F, 1.0F) * (ceiling - wall);
 }
+
+Vector3f Studio::room(const Vector3f& direction) const {
+  const float rim = smooth_step(0.80F, 0.97F, direction.dot(to_rim_));
+  return walls(direction) + Vector3f::Constant(1.6F * rim);
+}
+
+Vector3f Studio::floor_irradiance() const { return wall + 2.0F / 3 * (ceiling - wall); }
 
 float Studio::backdrop(float x, float y) const {
   // Brightest around the object, falling off to the corners and a little more towards the top.

@@ -27,8 +27,12 @@ class Studio {
   float key_cosine(const Eigen::Vector3f& n) const;
   /// Irradiance of a surface that faces the key lamp, divided by pi.
   const Eigen::Vector3f& key() const { return key_; }
-  /// Radiance that comes from the room (ceiling, walls, rim lamp) in an upward direction.
+  /// Radiance that comes from ceiling and walls in an upward direction, and from all of the room: with the rim lamp.
+  Eigen::Vector3f walls(const Eigen::Vector3f& direction) const;
   Eigen::Vector3f room(const Eigen::Vector3f& direction) const;
+  /// Irradiance of the floor by ceiling and walls, over pi. The rim lamp is shaded towards the floor: it would throw a
+  /// second shadow, at the viewer.
+  Eigen::Vector3f floor_irradiance() const;
   /// What a matt surface sends on to another one; `key_cosine` is that at the visible part of the key lamp.
   Eigen::Vector3f bounced(const Eigen::Vector3f& color, float key_cosine) const;
   /// Radiance from any direction when there is no object: the room, or the floor where the key lamp lights it.

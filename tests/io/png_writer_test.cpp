@@ -13,6 +13,7 @@
 #include <stb_image.h>
 #pragma GCC diagnostic pop
 
+#include "base/parallel.h"
 #include "base/srgb.h"
 #include "io/written_meshes.h"
 #include "pelage/error.h"
@@ -35,13 +36,31 @@ TEST(PngWriter, ReadsBackAsSrgbTopRowFirst) {
   stbi_image_free(pixels);
 }
 
+TEST(PngWriter, RowsAndBitsAreTheSameForAnyNumberOfThreads) {
+  Image image{300, 200, std::vector<float>(3 * 300 * 200)};
+  for (std::size_t i = 0; i < image.rgb.size(); ++i)
+    image.rgb[i] = static_cast<float>(i * 7919 % 1009) / 1009;  // hard to compress, no row like another
+  std::string one;
+  {
+    const ThreadLimit limit(1);
+    one = png_bytes(image);
+  }
+  EXPECT_EQ(one, png_bytes(image));
+  int width = 0, height = 0, channels = 0;
+  stbi_uc* pixels = stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(one.data()), static_cast<int>(one.size()),
+                                          &width, &height, &channels, 0);
+  ASSERT_NE(pixels, nullptr);
+  for (std::size_t i = 0; i < image.rgb.size(); ++i) ASSERT_EQ(pixels[i], srgb_byte(image.rgb[i])) << i;
+  stbi_image_free(pixels);
+}
+
 TEST(PngWriter, RefusesWhatIsNotANumber) {
   const std::string path = (test::fresh_folder() / "a.png").string();
   EXPECT_THROW(write_png({1, 1, {0, NAN, 0}}, path), Error);
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
-/// A picture of the largest size is not written here; the limits are those of an int and of arrays that double.
+/// A picture of the largest size is not written here; the limit is the length of a chunk.
 TEST(PngWriter, SizesAreCheckedFirst) {
   for (const auto& [width, height] : {std::pair{1, 1}, {1024, 1024}, {16384, 16384}, {21000, 21000}, {65536, 7000}})
     EXPECT_NO_THROW(check_picture_size(width, height, "a.png")) << width;

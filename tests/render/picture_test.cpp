@@ -147,6 +147,21 @@ TriangleMesh striped_ball() {
   return mesh;
 }
 
+TEST(Picture, EverySampleCountGivesTheSameBitsForAnyNumberOfThreads) {
+  const TriangleMesh mesh = striped_ball();
+  PictureOptions options = small();
+  for (const int samples : {4, 32, 512}) {
+    options.samples = samples;
+    options.width = samples > 100 ? 24 : 300;  // several bands and squares
+    std::vector<std::vector<float>> pictures;
+    for (const int threads : {1, 2}) {
+      const ThreadLimit limit(threads);
+      pictures.push_back(render(mesh, options).rgb);
+    }
+    EXPECT_EQ(pictures[0], pictures[1]) << samples;
+  }
+}
+
 double luminance(const Image& image, std::size_t pixel) {
   const float* c = image.rgb.data() + 3 * pixel;
   return 0.2126 * static_cast<double>(c[0]) + 0.7152 * static_cast<double>(c[1]) + 0.0722 * static_cast<double>(c[2]);
