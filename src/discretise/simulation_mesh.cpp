@@ -9,7 +9,6 @@
 #include "base/parallel.h"
 #include "discretise/cubic_triangle.h"
 #include "pelage/error.h"
-#include "shape/normals.h"
 #include "shape/refine.h"
 #include "shape/vectors.h"
 
@@ -58,21 +57,17 @@ SimulationMesh::SimulationMesh(Hierarchy& levels, std::vector<Point>& control, c
   refine_for(levels, control, edge.smallest, max_triangles);
   base_ = levels.shared_topology(0);
   finest_ = levels.shared_topology(levels.finest());
-  masks_ = loop_limit_masks(*finest_);
-  const std::vector<Point> limit = combine(masks_.position, control);
-  IsotropicMesh mesh =
-      edge.at_vertices.empty()
-          ? isotropic_mesh(finest_->triangles, limit, edge.smallest)
-          : isotropic_mesh(finest_->triangles, limit, levels.interpolated(edge.at_vertices, 1, 0, levels.finest()));
+  const std::vector<Point> limit = loop_limits(*finest_, control);
+  std::vector<double> edges(limit.size(), edge.smallest);
+  if (!edge.at_vertices.empty()) edges = levels.interpolated(edge.at_vertices, 1, 0, levels.finest());
+  IsotropicMesh mesh = isotropic_mesh(levels, limit, std::move(edges));
   places_ = std::move(mesh.places);
-  topology_ = std::make_shared<const Topology>(make_topology(places_.size(), std::move(mesh.triangles)));
-  on_shape_ = places_;
-  for (MeshPlace& p : on_shape_)
-    for (int level = 0; level < levels.finest(); ++level) p = in_parent(p);
+  topology_ = std::make_shared<const Topology>(std::move(mesh.topology));
+  levels_ = levels.finest();
 }
 
 std::vector<Point> SimulationMesh::points(const std::vector<Point>& control) const {
-  const std::vector<Point> limit = combine(masks_.position, control), normals = limit_normals(masks_, control);
+  const std::vector<Point> limit = loop_limits(*finest_, control), normals = loop_limit_normals(*finest_, control);
   std::vector<Point> result(places_.size());
   parallel_for(places_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -96,24 +91,28 @@ std::vector<Point> SimulationMesh::points(const std::vector<Point>& control) con
 
 namespace {
 
-/// Of tuples of `n` numbers, linear between those that tuple(face, k) names at the three corners.
+/// Of tuples of `n` numbers, linear between those that tuple(face, k) names at the three corners of the shape's faces.
 template <class Tuple>
-std::vector<double> linear(const std::vector<MeshPlace>& places, const std::vector<double>& given, std::size_t n,
-                           Tuple&& tuple) {
+std::vector<double> linear(const std::vector<MeshPlace>& places, int levels, const std::vector<double>& given,
+                           std::size_t n, Tuple&& tuple) {
   std::vector<double> result(places.size() * n);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto [face, v, w] = places[i];
-    const std::size_t a = n * tuple(at(face), 0), b = n * tuple(at(face), 1), c = n * tuple(at(face), 2);
-    for (std::size_t k = 0; k < n; ++k)
-      result[i * n + k] = (1 - v - w) * given[a + k] + v * given[b + k] + w * given[c + k];
-  }
+  parallel_for(places.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      MeshPlace place = places[i];
+      for (int level = 0; level < levels; ++level) place = in_parent(place);
+      const auto [face, v, w] = place;
+      const std::size_t a = n * tuple(at(face), 0), b = n * tuple(at(face), 1), c = n * tuple(at(face), 2);
+      for (std::size_t k = 0; k < n; ++k)
+        result[i * n + k] = (1 - v - w) * given[a + k] + v * given[b + k] + w * given[c + k];
+    }
+  });
   return result;
 }
 
 }  // namespace
 
 std::vector<double> SimulationMesh::values(const std::vector<double>& given, std::size_t components) const {
-  return linear(on_shape_, given, components,
+  return linear(places_, levels_, given, components,
                 [&](std::size_t face, std::size_t k) { return at(base_->triangles[face][k]); });
 }
 
@@ -121,9 +120,13 @@ Attribute SimulationMesh::values(const Attribute& given) const {
   Attribute result = given;
   const auto n = at(given.components);
   result.domain = Domain::vertex;
-  result.values = given.domain == Domain::vertex ? values(given.values, n)
-                                                 : linear(on_shape_, given.values, n,
-                                                          [](std::size_t face, std::size_t k) { return 3 * face + k; });
+  if (given.domain == Domain::vertex)
+    result.values = values(given.values, n);
+  else
+    result.values = linear(places_, levels_, given.values, n, [&](std::size_t face, std::size_t k) {
+      return given.domain == Domain::face ? face : 3 * face + k;
+    });
+  widen(result);
   return result;
 }
 

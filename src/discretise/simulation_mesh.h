@@ -33,9 +33,8 @@ class SimulationMesh {
 
  private:
   std::shared_ptr<const Topology> topology_, base_, finest_;
-  LimitMasks masks_;                 ///< of the finest level
-  std::vector<MeshPlace> places_;    ///< on the finest level
-  std::vector<MeshPlace> on_shape_;  ///< the same on level 0
+  std::vector<MeshPlace> places_;  ///< on the finest level
+  int levels_;                     ///< between that and the shape
 };
 
 /// Fields that are given at the vertices of a mesh at other places of it: smooth along its edges, and at its vertices

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/parallel.h"
+
 namespace pelage {
 
 EditableMesh::EditableMesh(const Topology& topology)
@@ -158,55 +160,86 @@ std::vector<Index> EditableMesh::breadth_first() const {
 }
 
 /// The live triangles in the order of their smallest new vertex.
-std::vector<Index> EditableMesh::faces_by_vertex(const std::vector<Index>& number, std::size_t vertices) const {
-  const auto smallest = [&](Index f) {
-    const auto at_corner = [&](Index k) { return number[static_cast<std::size_t>(origin(3 * f + k))]; };
-    return static_cast<std::size_t>(std::min({at_corner(0), at_corner(1), at_corner(2)}));
+std::vector<Index> EditableMesh::faces_by_vertex(const std::vector<Index>& order,
+                                                 const std::vector<Index>& number) const {
+  const auto visit_own = [&](Index v, auto&& visit) {  // the triangles whose smallest vertex is v
+    const auto later = [&](Index w) {
+      return number[static_cast<std::size_t>(w)] > number[static_cast<std::size_t>(v)];
+    };
+    const Index start = outgoing(v);
+    for (Index h = start; h >= 0;) {
+      if (later(target(h)) && later(origin(previous_halfedge(h)))) visit(h / 3);
+      h = twin(previous_halfedge(h));
+      if (h == start) break;
+    }
   };
-  std::vector<Index> start(vertices + 1, 0), order(static_cast<std::size_t>(live_faces_));
-  for (Index f = 0; f < halfedge_count() / 3; ++f)
-    if (alive(3 * f)) ++start[smallest(f) + 1];
-  for (std::size_t v = 0; v < vertices; ++v) start[v + 1] += start[v];
-  for (Index f = 0; f < halfedge_count() / 3; ++f)
-    if (alive(3 * f)) order[static_cast<std::size_t>(start[smallest(f)]++)] = f;
-  return order;
+  std::vector<std::vector<Index>> parts(chunk_count(order.size()));
+  parallel_for(order.size(), [&](std::size_t begin, std::size_t end) {
+    std::vector<Index>& part = parts[begin / default_chunk];
+    part.reserve(2 * (end - begin));
+    for (std::size_t i = begin; i < end; ++i) visit_own(order[i], [&](Index f) { part.push_back(f); });
+  });
+  std::vector<Index> faces;
+  faces.reserve(static_cast<std::size_t>(live_faces_));
+  for (const std::vector<Index>& part : parts) faces.insert(faces.end(), part.begin(), part.end());
+  return faces;
 }
+
+namespace {
+
+/// The place of each entry in a list of different numbers below `count`; -1 for numbers that are not there.
+std::vector<Index> inverse(const std::vector<Index>& list, std::size_t count) {
+  std::vector<Index> result(count, -1);
+  parallel_for(list.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) result[static_cast<std::size_t>(list[i])] = static_cast<Index>(i);
+  });
+  return result;
+}
+
+}  // namespace
 
 std::vector<Index> EditableMesh::pack() {
   std::vector<Index> vertices = breadth_first();
-  std::vector<Index> number(outgoing_.size(), -1);
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    number[static_cast<std::size_t>(vertices[i])] = static_cast<Index>(i);
-  const std::vector<Index> faces = faces_by_vertex(number, vertices.size());
-  std::vector<Index> face_number(halves_.size() / 3, -1);
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    face_number[static_cast<std::size_t>(faces[i])] = static_cast<Index>(i);
+  const std::vector<Index> number = inverse(vertices, outgoing_.size());
+  const std::vector<Index> faces = faces_by_vertex(vertices, number);
+  const std::vector<Index> face_number = inverse(faces, halves_.size() / 3);
 
   const auto renumbered = [&](Index h) {
     return h < 0 ? -1 : 3 * face_number[static_cast<std::size_t>(h / 3)] + h % 3;
   };
   std::vector<Half> halves(3 * faces.size());
-  for (std::size_t i = 0; i < halves.size(); ++i) {
-    const Half& half = at(3 * faces[i / 3] + static_cast<Index>(i % 3));
-    halves[i] = {number[static_cast<std::size_t>(half.origin)], renumbered(half.twin)};
-  }
-  std::vector<Index> outgoing, valence;
-  outgoing.reserve(vertices.size());
-  valence.reserve(vertices.size());
-  for (Index v : vertices) {
-    outgoing.push_back(renumbered(this->outgoing(v)));
-    valence.push_back(this->valence(v));
-  }
+  parallel_for(halves.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Half& half = at(3 * faces[i / 3] + static_cast<Index>(i % 3));
+      halves[i] = {number[static_cast<std::size_t>(half.origin)], renumbered(half.twin)};
+    }
+  });
+  std::vector<Index> outgoing(vertices.size()), valence(vertices.size());
+  parallel_for(vertices.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      outgoing[i] = renumbered(this->outgoing(vertices[i]));
+      valence[i] = this->valence(vertices[i]);
+    }
+  });
   halves_ = std::move(halves);
   outgoing_ = std::move(outgoing);
   valence_ = std::move(valence);
   return vertices;
 }
 
-std::vector<Triangle> EditableMesh::triangles() const {
-  std::vector<Triangle> triangles(halves_.size() / 3);
-  for (std::size_t h = 0; h < halves_.size(); ++h) triangles[h / 3][h % 3] = halves_[h].origin;
-  return triangles;
+Topology EditableMesh::topology() const {
+  Topology result;
+  result.vertex_count = vertex_count();
+  result.triangles.resize(halves_.size() / 3);
+  result.twin.resize(halves_.size());
+  parallel_for(halves_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t h = begin; h < end; ++h) {
+      result.triangles[h / 3][h % 3] = halves_[h].origin;
+      result.twin[h] = halves_[h].twin;
+    }
+  });
+  number_from_twins(result);
+  return result;
 }
 
 }  // namespace pelage

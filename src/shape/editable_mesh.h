@@ -62,7 +62,7 @@ class EditableMesh {
   /// Numbers live vertices and triangles anew: breadth first, triangles in the order of their smallest vertex. Returns
   /// the old number of each new vertex.
   std::vector<Index> pack();
-  std::vector<Triangle> triangles() const;  ///< of a packed mesh
+  Topology topology() const;  ///< of a packed mesh
 
  private:
   struct Half {
@@ -77,7 +77,7 @@ class EditableMesh {
   Index split_side(Index h, Index middle);
   Index remove_face(Index h);
   std::vector<Index> breadth_first() const;
-  std::vector<Index> faces_by_vertex(const std::vector<Index>& number, std::size_t vertices) const;
+  std::vector<Index> faces_by_vertex(const std::vector<Index>& order, const std::vector<Index>& number) const;
 
   std::vector<Half> halves_;
   std::vector<Index> outgoing_, valence_;

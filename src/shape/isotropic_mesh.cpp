@@ -96,6 +96,8 @@ void limit_slope(const Topology& topology, const std::vector<Point>& points, dou
 /// Neighbours of all vertices, counter-clockwise, in one array.
 struct Rings {
   std::vector<Index> first, neighbours;
+  const Index* begin(std::size_t v) const { return neighbours.data() + first[v]; }
+  const Index* end(std::size_t v) const { return begin(v + 1); }
 
   explicit Rings(const EditableMesh& mesh) : first(at(mesh.vertex_count()) + 1, 0) {
     for (Index v = 0; v < mesh.vertex_count(); ++v)
@@ -109,6 +111,9 @@ struct Rings {
     });
   }
 };
+
+/// A vertex that moves by less than this share of its wanted edge moves no others.
+constexpr double at_rest = 0.02;
 
 constexpr double most_faces = 1e8;  // numbers of half-edges stay below 2^31 while the mesh is refined
 
@@ -125,13 +130,30 @@ struct alignas(64) Spot {  // one line of the cache
   double size = 0;  ///< wanted edge
 };
 
+/// Equilateral triangles of edge h have the area sqrt(3) / 4 h^2.
+double wanted_faces(const Topology& base, const std::vector<Point>& points, const std::vector<double>& sizes) {
+  const auto point = [&](Index v) { return Vec(points[at(v)].data()); };
+  const auto partial = [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t f = begin; f < end; ++f) {
+      const Triangle& t = base.triangles[f];
+      double density = 0;
+      for (Index v : t) density += 1 / (3 * sizes[at(v)] * sizes[at(v)]);
+      sum += (point(t[1]) - point(t[0])).cross(point(t[2]) - point(t[0])).norm() / 2 * density;
+    }
+    return sum;
+  };
+  return ordered_sum(base.triangles.size(), 0.0, partial) * 4 / std::sqrt(3.0);
+}
+
 class IsotropicMesher {
  public:
-  IsotropicMesher(const Topology& base, const std::vector<Point>& points, std::vector<double> sizes);
-  IsotropicMesh run();
+  IsotropicMesher(const Topology& base, const std::vector<Point>& points, std::vector<double> sizes,
+                  const Topology& start);
+  /// To so many triangles.
+  IsotropicMesh run(double wanted);
 
  private:
-  double wanted_faces() const;
   double edge_square(Index h) const {
     return (spot(mesh_.origin(h)).point - spot(mesh_.target(h)).point).squaredNorm();
   }
@@ -192,21 +214,24 @@ class IsotropicMesher {
   std::vector<double> sizes_;  ///< per base vertex
   bool even_;                  ///< are all sizes the same?
   EditableMesh mesh_;
-  std::vector<Spot> spots_, moved_;
+  std::vector<Spot> spots_;
+  std::vector<char> stirred_;      ///< per vertex: has it moved, or have its edges changed, since the last relaxation?
   std::vector<signed char> aims_;  ///< per vertex: its wanted valence
   double scale_ = 1;
 };
 
-IsotropicMesher::IsotropicMesher(const Topology& base, const std::vector<Point>& points, std::vector<double> sizes)
+IsotropicMesher::IsotropicMesher(const Topology& base, const std::vector<Point>& points, std::vector<double> sizes,
+                                 const Topology& start)
     : base_(base),
       surface_(base, points),
       border_(base, points),
       sizes_(std::move(sizes)),
       even_(std::adjacent_find(sizes_.begin(), sizes_.end(), std::not_equal_to<>()) == sizes_.end()),
-      mesh_(base),
-      spots_(points.size()),
-      aims_(points.size(), aim(Hold::free)) {
-  for (std::size_t v = 0; v < points.size(); ++v) {
+      mesh_(start),
+      spots_(at(start.vertex_count)),
+      stirred_(spots_.size(), true),
+      aims_(spots_.size(), aim(Hold::free)) {
+  for (std::size_t v = 0; v < spots_.size(); ++v) {
     const Index h = base.outgoing[v];
     if (h < 0) continue;
     const bool border = base.twin[at(h)] < 0;
@@ -214,17 +239,6 @@ IsotropicMesher::IsotropicMesher(const Topology& base, const std::vector<Point>&
     if (border) spots_[v].hold = border_.corner(h) ? Hold::corner : Hold::border;
     aims_[v] = aim(spots_[v].hold);
   }
-}
-
-/// Equilateral triangles of edge h have the area sqrt(3) / 4 h^2.
-double IsotropicMesher::wanted_faces() const {
-  double sum = 0;
-  for (std::size_t f = 0; f < base_.triangles.size(); ++f) {
-    double density = 0;
-    for (Index v : base_.triangles[f]) density += 1 / (3 * sizes_[at(v)] * sizes_[at(v)]);
-    sum += surface_.normal(static_cast<Index>(f)).norm() / 2 * density;
-  }
-  return sum * 4 / std::sqrt(3.0);
 }
 
 /// Is a place on the boundary of the base?
@@ -263,6 +277,7 @@ void IsotropicMesher::cut(Index h) {
   if (std::max((fresh.point - a).squaredNorm(), (fresh.point - b).squaredNorm()) > 0.8 * (a - b).squaredNorm()) return;
   mesh_.split(h);
   spots_.push_back(fresh);
+  stirred_.push_back(true);
   aims_.push_back(aim(fresh.hold));
 }
 
@@ -359,15 +374,19 @@ bool IsotropicMesher::should_collapse(Index h, double longest) const {
          keeps_form(a, b, target) && keeps_form(b, a, target);
 }
 
-/// Shrinks edges shorter than so many wanted ones where none longer than `longest` results.
+/// Shrinks edges shorter than so many wanted ones where none longer than 4/3 results, or than `longest` for those
+/// shorter than 0.6, which set the largest step.
 void IsotropicMesher::collapse_below(double factor, double longest) {
   for (Index h : edges_where([&](Index e) { return !longer(e, factor); })) {
-    if (!mesh_.alive(h) || longer(h, factor) || !should_collapse(h, longest)) continue;
+    if (!mesh_.alive(h) || longer(h, factor)) continue;
+    // With less than 0.6, even lattices of triangles with two short sides and a long one would stay as they are.
+    if (!should_collapse(h, longer(h, 0.6) ? 4.0 / 3.0 : longest)) continue;
     const Index a = mesh_.origin(h);
     const Spot target = merged(h);
     if (target.hold < Hold::border && on_rim(target.place)) continue;
     if ((target.point - meeting(h)).squaredNorm() > 0.1 * edge_square(h)) continue;  // other than what was tried
     spot(a) = target;
+    stirred_[at(a)] = true;
     aims_[at(a)] = aim(spot(a).hold);
     mesh_.collapse(h);
   }
@@ -380,6 +399,7 @@ void IsotropicMesher::drop_low_valences() {
     if (!mesh_.vertex_alive(v)) continue;
     while (spot(v).hold == Hold::border && mesh_.valence(v) == 2 && mesh_.may_collapse(mesh_.outgoing(v))) {
       spot(v) = spot(mesh_.target(mesh_.outgoing(v)));
+      stirred_[at(v)] = true;
       aims_[at(v)] = aim(spot(v).hold);
       mesh_.collapse(mesh_.outgoing(v));
     }
@@ -394,7 +414,9 @@ void IsotropicMesher::drop_low_valences() {
         most = sides, best = h;
       h = mesh_.twin(previous_halfedge(h));
     } while (h != start);
-    if (best >= 0) mesh_.collapse(mesh_.twin(best));
+    if (best < 0) continue;
+    stirred_[at(mesh_.target(best))] = true;
+    mesh_.collapse(mesh_.twin(best));
   }
 }
 
@@ -414,8 +436,11 @@ void IsotropicMesher::flip_all() {
     return mesh_.twin(h) >= 0 && flip_helps(h) && may_lose_edge(mesh_.origin(h)) && may_lose_edge(mesh_.target(h)) &&
            mesh_.may_flip(h) && flip_keeps_form(h);
   };
-  for (Index h : edges_where(good))
-    if (good(h)) mesh_.flip(h);
+  for (Index h : edges_where(good)) {
+    if (!good(h)) continue;
+    mesh_.flip(h);
+    stirred_[at(mesh_.origin(h))] = stirred_[at(mesh_.target(h))] = true;
+  }
 }
 
 /// Does a vertex that moves turn one of its triangles by more than 60 degrees, or flatten it?
@@ -488,35 +513,52 @@ Spot IsotropicMesher::relaxed(Index v, const Index* begin, const Index* end) con
   return result;
 }
 
+/// Where a vertex and its neighbours have come to rest, they are left there.
 void IsotropicMesher::relax(int times) {
+  struct Move {
+    std::size_t vertex;
+    Spot to;
+  };
   const Rings rings(mesh_);
-  moved_.resize(spots_.size());
+  constexpr std::size_t chunk = 512;
+  std::vector<std::vector<Move>> moves(chunk_count(spots_.size(), chunk));
+  const auto restless = [&](std::size_t v) {
+    return stirred_[v] || std::any_of(rings.begin(v), rings.end(v), [&](Index n) { return stirred_[at(n)] != 0; });
+  };
   for (int i = 0; i < times; ++i) {
     parallel_for(
         spots_.size(),
         [&](std::size_t begin, std::size_t end) {
+          std::vector<Move>& here = moves[begin / chunk];
+          here.clear();
           for (std::size_t v = begin; v < end; ++v)
-            if (rings.first[v] < rings.first[v + 1])
-              moved_[v] = relaxed(static_cast<Index>(v), rings.neighbours.data() + rings.first[v],
-                                  rings.neighbours.data() + rings.first[v + 1]);
+            if (rings.begin(v) < rings.end(v) && restless(v))
+              here.push_back({v, relaxed(static_cast<Index>(v), rings.begin(v), rings.end(v))});
         },
-        512);
-    spots_.swap(moved_);
+        chunk);
+    std::fill(stirred_.begin(), stirred_.end(), false);
+    parallel_chunks(moves.size(), [&](std::size_t c) {
+      for (const Move& m : moves[c]) {
+        const double still = at_rest * m.to.size;
+        stirred_[m.vertex] = (m.to.point - spots_[m.vertex].point).squaredNorm() > still * still;
+        spots_[m.vertex] = m.to;
+      }
+    });
   }
 }
 
 void IsotropicMesher::pack() {
   const std::vector<Index> old = mesh_.pack();
   std::vector<Spot> spots(old.size());
-  aims_.clear();
-  for (std::size_t v = 0; v < old.size(); ++v) aims_.push_back(aim((spots[v] = spots_[at(old[v])]).hold));
+  stirred_.assign(old.size(), true);
+  aims_.resize(old.size());
+  parallel_for(old.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) aims_[v] = aim((spots[v] = spots_[at(old[v])]).hold);
+  });
   spots_ = std::move(spots);
 }
 
-IsotropicMesh IsotropicMesher::run() {
-  const double wanted = wanted_faces();
-  if (!(wanted <= most_faces))
-    throw Error(Fault::usage, "edges that short would make more than 100 million triangles; make them longer");
+IsotropicMesh IsotropicMesher::run(double wanted) {
   const auto room = static_cast<std::size_t>(wanted) + spots_.size();
   mesh_.reserve(room);
   spots_.reserve(room);
@@ -527,23 +569,25 @@ IsotropicMesh IsotropicMesher::run() {
     if (round == 0) pack();
     if (round == 0)
       for (double factor : {0.2, 0.4}) collapse_below(factor, 4.0 / 3.0);
-    collapse_below(4.0 / 5.0, 4.0 / 3.0);
-    collapse_below(0.5, 5.0 / 3.0);  // the shortest set the largest step
+    collapse_below(4.0 / 5.0, 5.0 / 3.0);
     flip_all();
-    relax(round + 1 < rounds ? 2 : 4);
-    if (round > 0) scale_ *= std::clamp(std::sqrt(mesh_.live_faces() / (1.02 * wanted)), 0.9, 1.1);
+    relax(round + 1 < rounds ? 1 : 2);
+    // Much smaller, and the limits would cut a mesh that is even but a little coarse at all its edges.
+    if (round > 0) scale_ = std::clamp(scale_ * std::sqrt(mesh_.live_faces() / (1.02 * wanted)), 0.9, 1.1);
   }
   collapse_below(0.5, 5.0 / 3.0);
   drop_low_valences();
   flip_all();
-  relax(3);
+  relax(2);
   pack();
-  IsotropicMesh result;
-  result.triangles = mesh_.triangles();
-  for (const Spot& s : spots_) {
-    result.points.push_back({s.point.x(), s.point.y(), s.point.z()});
-    result.places.push_back(s.place);
-  }
+  IsotropicMesh result{mesh_.topology(), std::vector<Point>(spots_.size()), std::vector<MeshPlace>(spots_.size())};
+  parallel_for(spots_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const Vec& p = spots_[v].point;
+      result.points[v] = {p.x(), p.y(), p.z()};
+      result.places[v] = spots_[v].place;
+    }
+  });
   return result;
 }
 
@@ -555,14 +599,22 @@ IsotropicMesh isotropic_mesh(const std::vector<Triangle>& triangles, const std::
 
 IsotropicMesh isotropic_mesh(const std::vector<Triangle>& triangles, const std::vector<Point>& points,
                              const std::vector<double>& edges) {
+  return isotropic_mesh(Hierarchy(make_topology(points.size(), triangles), midpoint_refine), points, edges);
+}
+
+IsotropicMesh isotropic_mesh(const Hierarchy& levels, const std::vector<Point>& points, std::vector<double> edges) {
   for (double edge : edges)
     if (!(edge > 0)) throw Error(Fault::usage, "the wanted edge length must be positive");
-  if (triangles.empty()) return {};
-  const Topology topology = make_topology(points.size(), triangles);
-  std::vector<double> sizes = edges;
-  if (std::adjacent_find(sizes.begin(), sizes.end(), std::not_equal_to<>()) != sizes.end())
-    limit_slope(topology, points, 0.3, sizes);
-  return IsotropicMesher(topology, points, std::move(sizes)).run();
+  const Topology& base = levels.topology(levels.finest());
+  if (base.triangles.empty()) return {};
+  if (std::adjacent_find(edges.begin(), edges.end(), std::not_equal_to<>()) != edges.end())
+    limit_slope(base, points, 0.3, edges);
+  const double wanted = wanted_faces(base, points, edges);
+  if (!(wanted <= most_faces))
+    throw Error(Fault::usage, "edges that short would make more than 100 million triangles; make them longer");
+  int start = levels.finest();  // half to twice as many triangles as wanted
+  while (start > 0 && static_cast<double>(levels.topology(start).triangles.size()) > 2 * wanted) --start;
+  return IsotropicMesher(base, points, std::move(edges), levels.topology(start)).run(wanted);
 }
 
 }  // namespace pelage

@@ -3,14 +3,15 @@
 
 #include <vector>
 
+#include "shape/hierarchy.h"
 #include "shape/mesh_place.h"
 
 namespace pelage {
 
 struct IsotropicMesh {
-  std::vector<Triangle> triangles;  ///< in the order of their smallest vertex
-  std::vector<Point> points;        ///< neighbours have near numbers
-  std::vector<MeshPlace> places;    ///< of the points, on the triangles of the base
+  Topology topology;              ///< triangles in the order of their smallest vertex
+  std::vector<Point> points;      ///< neighbours have near numbers
+  std::vector<MeshPlace> places;  ///< of the points, on the triangles of the base
 };
 
 /// The same surface with edges of about `edge`: area * 2 / (sqrt(3) edge^2) vertices, nearly all of valence 5 to 7.
@@ -28,5 +29,9 @@ IsotropicMesh isotropic_mesh(const std::vector<Triangle>& triangles, const std::
 /// along the surface are lowered.
 IsotropicMesh isotropic_mesh(const std::vector<Triangle>& triangles, const std::vector<Point>& points,
                              const std::vector<double>& edges);
+
+/// The same on the finest level of a hierarchy, where the points and edges are given. It begins with the triangles of
+/// that level which has about as many as the result: fewer edges are to be cut or collapsed.
+IsotropicMesh isotropic_mesh(const Hierarchy& levels, const std::vector<Point>& points, std::vector<double> edges);
 
 }  // namespace pelage

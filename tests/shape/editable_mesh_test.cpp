@@ -11,7 +11,12 @@ namespace {
 /// Everything that an editable mesh keeps must be what its triangles alone say.
 void expect_consistent(EditableMesh mesh) {
   mesh.pack();
-  const Topology truth = make_topology(static_cast<std::size_t>(mesh.vertex_count()), mesh.triangles());
+  const Topology own = mesh.topology();
+  const Topology truth = make_topology(static_cast<std::size_t>(mesh.vertex_count()), own.triangles);
+  ASSERT_EQ(own.twin, truth.twin);
+  ASSERT_EQ(own.edge, truth.edge);
+  ASSERT_EQ(own.edge_count, truth.edge_count);
+  ASSERT_EQ(own.outgoing, truth.outgoing);
   ASSERT_EQ(mesh.live_faces(), static_cast<Index>(truth.triangles.size()));
   ASSERT_EQ(mesh.live_vertices(), truth.vertex_count);
   std::vector<Index> ring;
@@ -79,7 +84,7 @@ TEST(EditableMesh, PackingPutsNeighboursTogether) {
   for (Index h = 0; h < mesh.halfedge_count(); ++h)
     widest = std::max(widest, std::abs(mesh.origin(h) - mesh.target(h)));
   EXPECT_LT(widest, 500);  // two rings
-  for (const Triangle& t : mesh.triangles()) {
+  for (const Triangle& t : mesh.topology().triangles) {
     const Index smallest = std::min({t[0], t[1], t[2]});
     EXPECT_GE(smallest, last);
     last = smallest;

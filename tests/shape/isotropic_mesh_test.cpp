@@ -13,7 +13,7 @@ namespace {
 
 using testing::vec;
 
-TriangleMesh mesh_of(const IsotropicMesh& made) { return {made.points, made.triangles, {}}; }
+TriangleMesh mesh_of(const IsotropicMesh& made) { return {made.points, made.topology.triangles, {}}; }
 
 double mean_edge(const TriangleMesh& mesh) {
   double sum = 0, count = 0;
@@ -101,6 +101,35 @@ TriangleMesh revolution(int around, int along, double length) {
   return mesh;
 }
 
+/// Limits that creep towards the length of all its edges would cut every one.
+TEST(IsotropicMesh, LeavesAnEvenMeshThatIsALittleCoarse) {
+  const TriangleMesh base = builtin_shape("builtin:sphere?n=2562");
+  const double edge = mean_edge(base);
+  for (double share : {0.85, 0.9, 0.95, 1.05}) {
+    SCOPED_TRACE(share);
+    const IsotropicMesh made = isotropic_mesh(base.triangles, base.points, share * edge);
+    EXPECT_NEAR(mean_edge(mesh_of(made)), share * edge, 0.15 * edge);
+    EXPECT_LT(stiffest(mesh_of(made)) * share * share * edge * edge, 10);
+  }
+}
+
+TEST(IsotropicMesh, OnALevelWithManyMoreTrianglesItBeginsWithAnEarlierOne) {
+  const TriangleMesh base = unit_sphere(SphereTriangulation::slivers, 1000);
+  Hierarchy levels(make_topology(base.points.size(), base.triangles), midpoint_refine);
+  levels.refine();
+  levels.refine();
+  const std::vector<Point> points = levels.refined(base.points, 0, 2);
+  for (double edge : {0.3, 0.08}) {
+    const IsotropicMesh made = isotropic_mesh(levels, points, std::vector<double>(points.size(), edge));
+    expect_places_hold(made, {points, levels.topology(2).triangles, {}});
+    const testing::MeshFacts facts = testing::mesh_facts(mesh_of(made));
+    EXPECT_EQ(facts.euler, 2);
+    EXPECT_NEAR(mean_edge(mesh_of(made)), edge, 0.04 * edge);
+    EXPECT_GT(facts.smallest_angle, 22);
+    EXPECT_LT(stiffest(mesh_of(made)) * edge * edge, 14);
+  }
+}
+
 TEST(IsotropicMesh, StandsPolesAndSlivers) {
   for (const TriangleMesh& base : {revolution(300, 40, 1), revolution(12, 200, 1), revolution(100, 8, 5)}) {
     const IsotropicMesh made = isotropic_mesh(base.triangles, base.points, 0.15);
@@ -119,7 +148,7 @@ TEST(IsotropicMesh, KeepsBoundariesAndTheirCorners) {
   const TriangleMesh plane = builtin_shape("builtin:plane?n=900");
   for (double edge : {0.15, 0.04, 0.013}) {
     const IsotropicMesh made = isotropic_mesh(plane.triangles, plane.points, edge);
-    const Topology topology = make_topology(made.points.size(), made.triangles);
+    const Topology topology = make_topology(made.points.size(), made.topology.triangles);
     double length = 0;
     int corners = 0;
     for (Index h = 0; h < static_cast<Index>(topology.twin.size()); ++h) {
@@ -182,7 +211,7 @@ TEST(IsotropicMesh, HasTheWantedSizesWithLimitedSlope) {
     return std::min(0.3, 0.05 + 0.3 * away);
   };
   double sum = 0, count = 0;
-  for (const Triangle& t : made.triangles)
+  for (const Triangle& t : made.topology.triangles)
     for (int k = 0; k < 3; ++k) {
       const Point &a = made.points[t[k]], &b = made.points[t[(k + 1) % 3]];
       const double ratio = (vec(a) - vec(b)).norm() / ((wanted(a) + wanted(b)) / 2);
@@ -203,7 +232,7 @@ TEST(IsotropicMesh, DoesNotDependOnThreads) {
   for (int threads : {1, 2, 4}) {
     const ThreadLimit limit(threads);
     const IsotropicMesh again = make();
-    EXPECT_EQ(again.triangles, made.triangles);
+    EXPECT_EQ(again.topology.triangles, made.topology.triangles);
     EXPECT_EQ(again.points, made.points);
     EXPECT_EQ(again.places, made.places);
   }

@@ -6,6 +6,7 @@
 
 #include "sample_meshes.h"
 #include "shape/generators.h"
+#include "shape/vectors.h"
 
 namespace pelage {
 namespace {
@@ -152,6 +153,21 @@ TEST(LoopSubdivision, NormalsPointOutward) {
                   position[v][1] * (a[v][2] * b[v][0] - a[v][0] * b[v][2]) +
                   position[v][2] * (a[v][0] * b[v][1] - a[v][1] * b[v][0]),
               0);
+}
+
+TEST(LoopSubdivision, LimitsAndNormalsAreThoseOfTheMasks) {
+  for (const TriangleMesh& mesh : {test::sheet(), builtin_shape("builtin:animal?n=5000")}) {
+    const Topology topology = of(mesh);
+    const LimitMasks masks = loop_limit_masks(topology);
+    EXPECT_EQ(loop_limits(topology, mesh.points), combine(masks.position, mesh.points));
+    std::vector<double> x;
+    for (const Point& p : mesh.points) x.push_back(p[0]);
+    EXPECT_EQ(loop_limits(topology, x), combine(masks.position, x));
+    const auto a = combine(masks.tangent1, mesh.points), b = combine(masks.tangent2, mesh.points),
+               normals = loop_limit_normals(topology, mesh.points);
+    for (std::size_t v = 0; v < normals.size(); ++v)
+      EXPECT_NEAR(length(difference(normals[v], unit(cross(a[v], b[v])))), 0, 1e-15);
+  }
 }
 
 }  // namespace
