@@ -22,7 +22,8 @@ struct RunSummary {
   std::int64_t steps = 0;
   double step = 0;                  ///< size of the next step
   double change = 0;                ///< of the pattern per unit of time, relative to its amplitude
-  std::int64_t iterations = 0;      ///< of the linear solver since the start or resumption
+  std::int64_t iterations = 0;      ///< stages, or iterations of the linear solver, since the start or resumption
+  double bytes = 0;                 ///< that went between memory and processor in them, at least; 0 where not counted
   std::int64_t rejected = 0;        ///< steps repeated with a smaller size
   double minimum = 0, maximum = 0;  ///< of the coefficients of all species
 };

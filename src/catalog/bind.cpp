@@ -20,7 +20,7 @@ namespace {
 /// All that attribute(NAME) may read from the shape and its images; Error for an image that hides something.
 std::vector<std::string> attributes_of(const TriangleMesh& shape, const std::vector<TextureFile>& textures) {
   std::vector<std::string> names;
-  for (const auto& [name, values] : scalar_attributes(shape.attributes)) names.push_back(name);
+  for (const auto& [name, values] : scalar_attributes(shape)) names.push_back(name);
   for (const TextureFile& t : textures) take_texture_name(t.name, names);
   return names;
 }
@@ -103,6 +103,17 @@ void need_edges_of(const PlannedStage& planned, const Quality& quality, Program&
     program.edges[v] = std::min(program.edges[v], edge * factor[v]);
 }
 
+/// Where all is as it was when the iterations of the model were counted, but for the end and the number of edges: with
+/// more of them, every step takes as many iterations more.
+std::optional<double> likely_iterations(const PlannedStage& planned, const Plan& plan, const Program& program,
+                                        const StageProgram& s) {
+  const Suggestions& suggested = planned.model.source().suggestions;
+  const bool as_measured = !plan.method_asked && planned.asked.stepper.value.empty() && !s.step && !s.steps;
+  if (!as_measured || !suggested.iterations || !suggested.end || !(*suggested.end > 0)) return {};
+  const double edges = s.size / program.edge / (program.method->edges * suggested.resolution_or_default());
+  return *suggested.iterations * std::min(1.0, s.until / *suggested.end) * std::max(1.0, edges);
+}
+
 /// Whether the mesh of the run can have other edges where the size is another.
 bool sizes_differ(const Plan& plan, const Method& method) {
   return method.own_mesh && std::ranges::any_of(plan.stages, [](const auto& s) { return s.size_map.has_value(); });
@@ -150,6 +161,8 @@ Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> ima
   const double growth = std::exp(std::max(0.0, plan.motion.growth * plan.until));
   p.edge /= growth;
   for (double& edge : p.edges) edge /= growth;
+  for (std::size_t k = 0; k < p.stages.size(); ++k)
+    p.stages[k].iterations = likely_iterations(plan.stages[k], plan, p, p.stages[k]);
   return p;
 }
 

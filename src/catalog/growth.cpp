@@ -97,7 +97,7 @@ TriangleMesh Growth::dress(const Look& look) const {
 std::vector<Growth::Field> Growth::fields() const {
   const CoatFields fields = parts_->run.fields();
   const Look& look = parts_->look;
-  const Tessellation& t = parts_->tessellations.of(parts_->run, {look.keep_shape, look.detail});
+  const Tessellation& t = parts_->tessellations.of(parts_->run, tessellation_request(look));
   std::vector<Field> named;
   for (std::size_t i = 0; i < fields.species.size(); ++i) named.push_back({fields.species[i], t.samples.fields[i]});
   return named;

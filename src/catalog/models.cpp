@@ -73,7 +73,7 @@ Suggestions suggestions(const Value& table) {
     throw Error(Fault::usage, "a resolution is a number of vertices per wavelength from 6 to 64",
                 suggested->at("resolution").where());
   return {suggested->optional_number("step"), suggested->optional_number("end"),
-          suggested->optional_number("tolerance"), resolution};
+          suggested->optional_number("tolerance"), resolution, suggested->optional_number("iterations")};
 }
 
 bool has_number(const Value& table, const std::string& key) {

@@ -14,7 +14,7 @@ void require_name(const Given<std::string>& name) {
 }
 
 void take_texture_name(const Given<std::string>& texture, std::vector<std::string>& attributes) {
-  for (const std::string& name : attribute_names(texture.value)) {
+  for (const std::string& name : color_names(texture.value)) {
     if (std::ranges::count(attributes, name) > 0)
       throw Error(
           Fault::usage,

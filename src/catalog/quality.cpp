@@ -7,7 +7,7 @@ std::span<const Quality> qualities() {
   static constexpr Quality all[] = {
       {"draft", "at once", 0.8, 5},
       {"normal", "as good as a picture shows", 1, 1},
-      {"fine", "for measurements", 1.6, 0.1},
+      {"fine", "for measurements", 1.7, 0.03},
   };
   return all;
 }

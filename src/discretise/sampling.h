@@ -51,6 +51,9 @@ SparseMatrix sampled_mass(const Sampling& sampling, const Vector& weight,
 /// test (W f).
 Vector load(const Sampling& sampling, const Vector& f);
 
+/// Whether the unknowns are the samples: values = 1, and so M = test W.
+bool unknowns_are_samples(const Sampling& sampling);
+
 /// Coefficients whose samples are nearest to the given ones in the weighted mean square (equal at vertex sampling).
 Vector coefficients_from_samples(const Sampling& sampling, const SparseMatrix& mass, const Vector& samples);
 

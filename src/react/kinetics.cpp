@@ -57,15 +57,16 @@ class KineticsBuilder {
     kinetics.size_ = places.positions.size();
   }
 
-  void build() {
+  void build(Kinetics::Parts parts) {
     const Equations& e = equations_;
-    kinetics_.rates_ = program(e.rate);
-    kinetics_.split_ = program(join(e.c2, e.c3));
-    kinetics_.jacobian_ = program(e.jacobian);
-    kinetics_.diffusion_ = program(join(e.prefactor, e.diffusion));
-    for (std::size_t i = 0; i < e.initial.size(); ++i) kinetics_.initial_.push_back(bounded(e.initial[i], i));
-    for (std::size_t i = 0; i < e.pin.size(); ++i)
-      kinetics_.pin_.push_back(e.pin[i] ? bounded(*e.pin[i], i) : std::vector<double>{});
+    if (parts == Kinetics::Parts::all) add_reaction();
+    const std::vector<NodeId> diffusion = join(e.prefactor, e.diffusion);
+    kinetics_.diffusion_ = program(diffusion);
+    const bool starts = parts == Kinetics::Parts::all || std::ranges::any_of(diffusion, [&](NodeId id) {
+                          return (graph_[id].dependence & on_species) != 0;
+                        });
+    for (std::size_t i = 0; i < e.initial.size(); ++i)
+      kinetics_.initial_.push_back(starts ? bounded(e.initial[i], i) : std::vector<double>{0});
     for (const auto& a : e.anisotropy) {
       auto& fields = kinetics_.anisotropy_.emplace_back();
       if (a) fields = {place_field(a->theta), place_field(a->a1), place_field(a->a2)};
@@ -73,6 +74,15 @@ class KineticsBuilder {
   }
 
  private:
+  void add_reaction() {
+    const Equations& e = equations_;
+    kinetics_.rates_ = program(e.rate);
+    kinetics_.split_ = program(join(e.c2, e.c3));
+    kinetics_.jacobian_ = program(e.jacobian);
+    for (std::size_t i = 0; i < e.pin.size(); ++i)
+      kinetics_.pin_.push_back(e.pin[i] ? bounded(*e.pin[i], i) : std::vector<double>{});
+  }
+
   /// The concentration as the reaction sees it.
   NodeId clamped(NodeId species) {
     const auto i = static_cast<std::size_t>(graph_.symbol_of(species).index);
@@ -128,8 +138,8 @@ class KineticsBuilder {
   std::map<NodeId, std::size_t> field_of_;
 };
 
-Kinetics::Kinetics(const Model& model, const Places& places, std::uint64_t seed) {
-  KineticsBuilder(*this, model, places, seed).build();
+Kinetics::Kinetics(const Model& model, const Places& places, std::uint64_t seed, Parts parts) {
+  KineticsBuilder(*this, model, places, seed).build(parts);
 }
 
 void Kinetics::run(const Program& program, SpeciesValues u, double t, std::size_t begin, std::size_t end,
@@ -145,30 +155,34 @@ std::vector<double> Kinetics::scalars(const Program& program, double t) const {
   return evaluate(graph_, program.time_expressions, [t](const Symbol&) { return t; });
 }
 
-std::vector<float> Kinetics::float_scalars(double t) const {
-  const std::vector<double> values = scalars(rates_, t);
-  return {values.begin(), values.end()};
-}
-
-const std::vector<std::vector<float>>& Kinetics::float_fields() const {
-  std::call_once(float_fields_->once, [&] {
-    for (const std::size_t k : rates_.fields) float_fields_->fields.emplace_back(fields_[k].begin(), fields_[k].end());
+const std::vector<std::vector<float>>& Kinetics::float_fields(const Program& program) const {
+  FloatFields& single = *program.single;
+  std::call_once(single.once, [&] {
+    for (const std::size_t k : program.fields) single.fields.emplace_back(fields_[k].begin(), fields_[k].end());
   });
-  return float_fields_->fields;
+  return single.fields;
 }
 
-void Kinetics::rates(std::span<const float* const> u, std::span<const float> scalars, std::size_t first,
-                     std::size_t count, std::span<float* const> out) const {
+Kinetics::FloatFunction Kinetics::float_function(const Program& program, double t) const {
+  const std::vector<double> values = scalars(program, t);
+  return [this, &program, single = std::vector<float>(values.begin(), values.end())](
+             std::span<const float* const> u, std::size_t first, std::size_t count, std::span<float* const> out) {
+    run(program, single, u, first, count, out);
+  };
+}
+
+void Kinetics::run(const Program& program, std::span<const float> scalars, std::span<const float* const> u,
+                   std::size_t first, std::size_t count, std::span<float* const> out) const {
   assert(u.size() == species_count() && first + count <= size_);
   std::array<const float*, 16> few;  // an allocation would cost as much as a block of samples
   std::vector<const float*> many;
-  const auto& fields = float_fields();
+  const auto& fields = float_fields(program);
   const std::size_t inputs = u.size() + fields.size();
   if (inputs > few.size()) many.resize(inputs);
   const float** in = many.empty() ? few.data() : many.data();
   std::ranges::copy(u, in);
   for (std::size_t k = 0; k < fields.size(); ++k) in[u.size() + k] = fields[k].data() + first;
-  rates_.tape.run({in, inputs}, scalars, count, out);
+  program.tape.run({in, inputs}, scalars, count, out);
 }
 
 void Kinetics::rates(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput out) const {

@@ -2,6 +2,7 @@
 // A model bound to places on a surface: rates, coefficients and initial values, evaluated in blocks.
 
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -42,21 +43,26 @@ using SpeciesOutput = std::span<double* const>;
 /// concentrations clamped to the bounds of the model: with b >= 0, rates use max(b, 0).
 class Kinetics {
  public:
+  /// What is known: everything, or diffusion() and anisotropy() alone, with initial() where a diffusion depends on
+  /// concentrations.
+  enum class Parts { all, diffusion };
+
   /// Copies what it needs from `places`. Error(usage), located in the model, if the model uses normals,
   /// curvatures or an attribute that the places do not have.
-  Kinetics(const Model& model, const Places& places, std::uint64_t seed);
+  Kinetics(const Model& model, const Places& places, std::uint64_t seed, Parts parts = Parts::all);
 
   std::size_t size() const { return size_; }
   std::size_t species_count() const { return initial_.size(); }
 
   /// R of every species.
   void rates(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput out) const;
-  /// R in single precision, for `count` samples from number `first` on, to which u[s][0] and out[s][0] belong.
-  /// `scalars`: float_scalars(t).
-  void rates(std::span<const float* const> u, std::span<const float> scalars, std::size_t first, std::size_t count,
-             std::span<float* const> out) const;
-  /// The parts of the rates that depend on the time alone.
-  std::vector<float> float_scalars(double t) const;
+  /// A function of the species in single precision, for `count` samples from number `first` on, to which u[s][0] and
+  /// out[s][0] belong. Lives no longer than the kinetics.
+  using FloatFunction = std::function<void(std::span<const float* const> u, std::size_t first, std::size_t count,
+                                           std::span<float* const> out)>;
+  /// rates() and jacobian() at a time.
+  FloatFunction float_rates(double t) const { return float_function(rates_, t); }
+  FloatFunction float_jacobian(double t) const { return float_function(jacobian_, t); }
   /// C2 and C3 of every species: R = C2 u + C3 with u clamped.
   void split(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput c2, SpeciesOutput c3) const;
   /// dR_i / du_j at out[i * species_count() + j], at the clamped concentrations.
@@ -76,24 +82,27 @@ class Kinetics {
 
  private:
   friend class KineticsBuilder;
+  /// Made when they are first asked for.
+  struct FloatFields {
+    std::once_flag once;
+    std::vector<std::vector<float>> fields;
+  };
   /// A tape whose inputs are the species and then some of `fields_`.
   struct Program {
     Tape tape;
     std::vector<std::size_t> fields;       ///< which of fields_
     std::vector<NodeId> time_expressions;  ///< the tape's scalars: evaluated once per call
+    std::shared_ptr<FloatFields> single = std::make_shared<FloatFields>();  ///< the fields in single precision
   };
   void run(const Program& program, SpeciesValues u, double t, std::size_t begin, std::size_t end,
            SpeciesOutput out) const;
 
-  /// What the rates read of fields_, in single precision: made when it is first asked for.
-  struct FloatFields {
-    std::once_flag once;
-    std::vector<std::vector<float>> fields;
-  };
-  const std::vector<std::vector<float>>& float_fields() const;
+  const std::vector<std::vector<float>>& float_fields(const Program& program) const;
+  FloatFunction float_function(const Program& program, double t) const;
+  void run(const Program& program, std::span<const float> scalars, std::span<const float* const> u, std::size_t first,
+           std::size_t count, std::span<float* const> out) const;
   std::vector<double> scalars(const Program& program, double t) const;
 
-  std::shared_ptr<FloatFields> float_fields_ = std::make_shared<FloatFields>();
   std::size_t size_ = 0;
   Graph graph_;
   std::vector<std::vector<double>> fields_;   ///< expressions of the place alone, one value per sample

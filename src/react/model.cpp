@@ -54,7 +54,7 @@ void apply_overrides(ModelSource& model, const Overrides& overrides) {
 
 bool is_coupled(const Equations& equations, std::size_t i) {
   const std::size_t n = equations.species.size();
-  bool coupled = equations.algebraic[i];
+  bool coupled = equations.algebraic[i] && !equations.follows[i];
   for (std::size_t j = 0; j < n; ++j)
     coupled = coupled || equations.cross[i * n + j] != 0 || equations.cross[j * n + i] != 0;
   return coupled;
@@ -72,6 +72,7 @@ class Compiler {
     add_definitions();
     add_changes();
     for (const SpeciesSource& species : source_.species) add_equation(species);
+    find_followers();
     for (std::size_t i = 0; i < source_.species.size(); ++i) check_coupling(i);
     require_nothing_held_is_coupled();
     add_wavelength_law();
@@ -308,10 +309,28 @@ class Compiler {
     return split.rest;
   }
 
+  /// Algebraic species that have no Laplacian, and whose values and Laplacians no equation of another reads.
+  void find_followers() {
+    const std::size_t n = equations_.species.size();
+    equations_.cross.resize(n * n, 0.0);
+    equations_.follows = equations_.algebraic;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (has_laplacian_[i]) equations_.follows[i] = 0;
+      for (std::size_t j = 0; j < n; ++j)
+        if (equations_.cross[i * n + j] != 0) equations_.follows[i] = equations_.follows[j] = 0;
+      const auto& a = equations_.anisotropy[i];
+      std::vector<NodeId> read = {equations_.rate[i], equations_.prefactor[i], equations_.diffusion[i]};
+      if (a) read.insert(read.end(), {a->theta, a->a1, a->a2});
+      for (const NodeId id : reachable(graph_, read))
+        if (graph_[id].op == Op::symbol && graph_.symbol_of(id).kind == Symbol::Kind::species &&
+            graph_.symbol_of(id).index != static_cast<int>(i))
+          equations_.follows[static_cast<std::size_t>(graph_.symbol_of(id).index)] = 0;
+    }
+  }
+
   /// What Laplacians and algebraic species ask of an equation; known when all are.
   void check_coupling(std::size_t i) {
     const SpeciesSource& species = source_.species[i];
-    equations_.cross.resize(equations_.species.size() * equations_.species.size(), 0.0);
     const auto diffusion = graph_.constant_value(equations_.diffusion[i]);
     const bool coupled = is_coupled(equations_, i);
     if (species.anisotropy && (coupled || has_laplacian_[i]))
@@ -408,6 +427,7 @@ ModelSource with_variant(ModelSource source, const std::string& variant) {
     if (suggested.end) source.suggestions.end = suggested.end;
     if (suggested.tolerance) source.suggestions.tolerance = suggested.tolerance;
     if (suggested.resolution) source.suggestions.resolution = suggested.resolution;
+    if (suggested.iterations) source.suggestions.iterations = suggested.iterations;
     if (!candidate.title.empty()) source.title = candidate.title;
     return source;
   }
@@ -432,6 +452,17 @@ std::vector<std::size_t> Model::coupled() const {
 
 bool Model::anisotropic() const {
   return std::ranges::any_of(equations_->anisotropy, [](const auto& a) { return a.has_value(); });
+}
+
+bool Model::jumps() const {
+  const Graph& graph = equations_->graph;
+  std::vector<NodeId> rates;
+  for (std::size_t i = 0; i < species_count(); ++i)
+    if (!follows(i)) rates.push_back(equations_->rate[i]);
+  return std::ranges::any_of(reachable(graph, rates), [&](NodeId id) {
+    const NodeId decides = graph[id].op == Op::select ? graph[id].in[0] : id;
+    return has_jumps(graph[id].op) && (graph[decides].dependence & on_species) != 0;
+  });
 }
 
 bool Model::varying_prefactor(std::size_t i) const {

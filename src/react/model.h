@@ -77,6 +77,9 @@ struct Suggestions {
   /// Control vertices per wavelength at least. With 6, Loop elements represent a sine to better than a percent;
   /// patterns with fronts much thinner than their spacing ask for more.
   std::optional<double> resolution;
+  /// Stages or solver iterations of the default stepper up to the end, as measured; only the time that a run will take
+  /// is estimated by it.
+  std::optional<double> iterations = {};
   double resolution_or_default() const { return resolution.value_or(6); }
 };
 
@@ -136,6 +139,7 @@ struct Equations {
   Graph graph;
   std::vector<NodeId> species;    ///< the symbols
   std::vector<char> algebraic;    ///< u = R + Laplacians instead of du/dt = R + Laplacians
+  std::vector<char> follows;      ///< algebraic, without Laplacians, and no equation of another species reads it
   std::vector<NodeId> rate;       ///< R, without Laplacians; of algebraic species depends on evolving ones only
   std::vector<NodeId> c2, c3;     ///< R = C2 u + C3
   std::vector<NodeId> prefactor;  ///< C0, 1 when it is constant (then it is part of `diffusion`)
@@ -163,6 +167,8 @@ class Model {
 
   /// Not advanced in time but determined by the others at every time.
   bool algebraic(std::size_t i) const { return equations_->algebraic[i] != 0; }
+  /// Algebraic, and only shown: nothing has to be solved for it, and steps do without it.
+  bool follows(std::size_t i) const { return equations_->follows[i] != 0; }
   /// Species that are linked by Laplacians and have to be solved for together; their diffusions are numbers.
   std::vector<std::size_t> coupled() const;
   /// Coefficient of lap(u_j) in the equation of species i, j != i.
@@ -172,6 +178,9 @@ class Model {
   bool anisotropic(std::size_t i) const { return equations_->anisotropy[i].has_value(); }
   /// Whether any does.
   bool anisotropic() const;
+
+  /// Whether a rate may jump with the concentrations: it has if(), comparisons or floor() of them.
+  bool jumps() const;
 
   /// Whether concentrations are held somewhere, and whether those of species i then start from other values.
   bool held() const { return equations_->mask.has_value(); }

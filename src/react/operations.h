@@ -38,6 +38,24 @@ enum class Op : std::uint8_t {
   count    ///< number of operations
 };
 
+/// Whether values jump where operands do not.
+constexpr bool has_jumps(Op op) {
+  switch (op) {
+    case Op::modulo:
+    case Op::floor:
+    case Op::less:
+    case Op::less_equal:
+    case Op::equal:
+    case Op::logical_and:
+    case Op::logical_or:
+    case Op::logical_not:
+    case Op::select:
+      return true;
+    default:
+      return false;
+  }
+}
+
 /// Number of operands.
 constexpr int arity(Op op) {
   switch (op) {

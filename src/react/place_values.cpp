@@ -44,13 +44,13 @@ std::span<const double> attribute(const Symbol& symbol, const Places& places) {
   std::vector<std::string> names;
   for (const auto& [name, values] : places.attributes) names.push_back(name);
   require_attribute(symbol, names);
-  return {};
+  return places.attributes.at(*matching_name(symbol.name, names));
 }
 
 }  // namespace
 
 void require_attribute(const Symbol& symbol, const std::vector<std::string>& names) {
-  if (std::ranges::count(names, symbol.name) > 0) return;
+  if (matching_name(symbol.name, names)) return;
   const std::string hint = did_you_mean(symbol.name, names);
   if (symbol.name.find('.') != std::string::npos)
     throw Error(Fault::usage,

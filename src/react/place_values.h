@@ -27,7 +27,7 @@ std::vector<double> evaluate_place(Graph& graph, NodeId expression, const Places
 /// The quantities of the place that an expression reads, in the order of their nodes.
 std::vector<Symbol> place_symbols(const Graph& graph, const std::vector<NodeId>& expressions);
 
-/// Error(usage), located, for an attribute that is not among the names.
+/// Error(usage), located, for an attribute that is not among the names; matching_name says which of them it is.
 void require_attribute(const Symbol& symbol, const std::vector<std::string>& names);
 
 /// The quantities of the place that a model reads.

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/box.h"
+#include "base/suggest.h"
 #include "direction/direction_field.h"
 #include "pelage/error.h"
 #include "shape/scalar_attributes.h"
@@ -13,16 +14,18 @@ namespace pelage {
 
 namespace {
 
-/// The attribute as three components: in one, or in three as PLY files have them.
+/// The attribute as three components: in one, or in three as PLY files have them; DIRECTION counts as well.
 std::optional<std::array<std::vector<double>, 3>> given_directions(const TriangleMesh& shape) {
-  const VertexAttributes all = scalar_attributes(shape.attributes);
-  for (const int first : {1, 0}) {
+  const VertexAttributes all = scalar_attributes(shape);
+  std::vector<std::string> names;
+  for (const auto& [name, values] : all) names.push_back(name);
+  for (const auto& ends : {std::array{"_1", "_2", "_3"}, {"_0", "_1", "_2"}, {"_x", "_y", "_z"}}) {
     std::array<std::vector<double>, 3> parts;
     bool complete = true;
-    for (int k = 0; k < 3; ++k) {
-      const auto found = all.find(direction_attribute + ("_" + std::to_string(first + k)));
-      complete = complete && found != all.end();
-      if (complete) parts[static_cast<std::size_t>(k)] = found->second;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::string* name = matching_name(std::string(direction_attribute) + ends[k], names);
+      complete = complete && name;
+      if (complete) parts[k] = all.at(*name);
     }
     if (complete) return parts;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/suggest.h"
 #include "react/place_values.h"
 #include "run/directions.h"
 #include "run/random_points.h"
@@ -15,11 +16,13 @@ bool reads(const std::vector<Symbol>& symbols, Symbol::Kind kind) {
 }
 
 VertexAttributes attributes_of_mesh(const Program& program, const std::vector<Symbol>& symbols, const World& world) {
-  const VertexAttributes all = scalar_attributes(program.shape->attributes);
+  const VertexAttributes all = scalar_attributes(*program.shape);
   VertexAttributes read;
+  std::vector<std::string> names;
+  for (const auto& [name, values] : all) names.push_back(name);
   for (const Symbol& s : symbols)
-    if (const auto found = all.find(s.name); s.kind == Symbol::Kind::attribute && found != all.end())
-      read[s.name] = world.at_nodes(found->second);
+    if (const std::string* name = matching_name(s.name, names); s.kind == Symbol::Kind::attribute && name)
+      read[s.name] = world.at_nodes(all.at(*name));
   for (const Texture& texture : textures_read(symbols, program.textures)) read.merge(world.at_nodes(texture));
   return read;
 }
@@ -73,7 +76,7 @@ TriangleMesh shape_now(const Program& program, const World& world) {
 std::vector<Texture> textures_read(const std::vector<Symbol>& symbols, const std::vector<Texture>& textures) {
   std::vector<Texture> read;
   for (const Texture& texture : textures) {
-    const auto names = attribute_names(texture.name);
+    const auto names = color_names(texture.name);
     if (std::ranges::any_of(symbols, [&](const Symbol& s) {
           return s.kind == Symbol::Kind::attribute && std::ranges::count(names, s.name) > 0;
         }))

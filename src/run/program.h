@@ -41,6 +41,7 @@ struct StageProgram {
   std::optional<std::int64_t> steps;
   double stationary = 0;  ///< 0: never
   std::uint64_t seed = 1;
+  std::optional<double> iterations;  ///< that it is likely to take; see RunSummary::iterations
 
   /// Whether the step follows the error.
   bool adaptive() const { return !step && stepper->adaptive; }

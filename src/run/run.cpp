@@ -87,6 +87,7 @@ struct Run::Stage {
   StageSystem equations;
   std::unique_ptr<Stepper> stepper;
   State state;
+  std::vector<Vector> shown;            ///< state.now with the species that follow; empty where none does
   std::vector<double> first_magnitude;  ///< per species
   double step = 0;
   RunSummary summary;
@@ -135,6 +136,7 @@ std::unique_ptr<Run::Stage> Run::begin(std::size_t index, const World& world,
                                              std::move(equations),
                                              p.stepper->make(),
                                              std::move(state),
+                                             {},
                                              std::move(first),
                                              step,
                                              {}});
@@ -157,7 +159,7 @@ VertexAttributes Run::finished_fields(const Space& space, const std::vector<Fini
 
 void Run::next_stage() {
   std::vector<FinishedStage> finished = finished_;
-  finished.push_back({now_->state.now, now_->summary});
+  finished.push_back({coefficients(), now_->summary});
   now_ = begin(stage_ + 1, world_, finished, warnings_);
   finished_ = std::move(finished);
   ++stage_;
@@ -170,16 +172,34 @@ bool Run::done() const {
 
 const RunSummary& Run::summary() const { return now_->summary; }
 const System& Run::system() const { return now_->equations.system(); }
-const std::vector<Vector>& Run::coefficients() const { return now_->state.now; }
+const std::vector<Vector>& Run::coefficients() const { return now_->shown.empty() ? now_->state.now : now_->shown; }
 std::vector<Vector> Run::initial() const { return now_->equations.initial(); }
+
+double Run::stage_fraction() const {
+  // Rest may come earlier or later than it did when it was measured.
+  constexpr double nearly_done = 0.98;
+  const StageProgram& p = stage_program();
+  const RunSummary& summary = now_->summary;
+  if (summary.status != RunStatus::running) return 1;
+  double fraction = p.until > 0 ? now_->state.time / p.until : 0;
+  if (p.steps) fraction = std::max(fraction, static_cast<double>(now_->state.step) / static_cast<double>(*p.steps));
+  if (p.iterations)
+    fraction = std::max(fraction, std::min(nearly_done, static_cast<double>(summary.iterations) / *p.iterations));
+  return std::min(1.0, fraction);
+}
 
 double Run::fraction() const {
   if (done()) return 1;
-  const StageProgram& p = stage_program();
-  double fraction = p.until > 0 ? now_->state.time / p.until : 0;
-  if (p.steps) fraction = std::max(fraction, static_cast<double>(now_->state.step) / static_cast<double>(*p.steps));
-  if (now_->summary.status != RunStatus::running) fraction = 1;
-  return (static_cast<double>(stage_) + std::min(1.0, fraction)) / static_cast<double>(program_->stages.size());
+  const std::vector<StageProgram>& stages = program_->stages;
+  const bool known = std::ranges::all_of(stages, [](const StageProgram& p) { return p.iterations.has_value(); });
+  double before = 0, all = 0;
+  for (std::size_t k = 0; k < stages.size(); ++k) {
+    const double work = known ? *stages[k].iterations : 1;
+    if (k < stage_) before += work;
+    if (k == stage_) before += work * stage_fraction();
+    all += work;
+  }
+  return before / all;
 }
 
 /// The last step is cut to end on time; a rest below a thousandth of a step is joined to it.
@@ -191,6 +211,7 @@ double Run::next_step() const {
 const RunSummary& Run::advance(std::int64_t steps) {
   for (std::int64_t k = 0; k < steps && !done();) {
     if (now_->summary.status != RunStatus::running) {
+      show_followers();
       next_stage();
       continue;
     }
@@ -201,6 +222,7 @@ const RunSummary& Run::advance(std::int64_t steps) {
     if (p.adaptive()) request.largest_error = step_tolerance();
     const StepReport report = now_->stepper->step(system(), now_->state, request);
     now_->summary.iterations += report.iterations;
+    now_->summary.bytes += report.bytes;
     if (report.accepted) {
       accept(report, request.dt);
       ++k;
@@ -214,7 +236,21 @@ const RunSummary& Run::advance(std::int64_t steps) {
       fail(report.failure.empty() ? "the fields change too fast for the smallest step" : report.failure);
     }
   }
+  show_followers();
   return now_->summary;
+}
+
+/// No step needs these species: they are found for those who look.
+void Run::show_followers() {
+  if (std::ranges::none_of(system().species, &Species::follows)) return;
+  now_->shown = now_->state.now;
+  follow(system(), now_->state.time, now_->shown);
+  RunSummary& summary = now_->summary;
+  for (std::size_t i = 0; i < coefficients().size(); ++i) {
+    if (!system().species[i].follows) continue;
+    summary.minimum = std::min(summary.minimum, minimum(coefficients()[i]));
+    summary.maximum = std::max(summary.maximum, maximum(coefficients()[i]));
+  }
 }
 
 /// Brings surface, matrices and state to the place where the next step, which ends at `time`, finds them. The values of
@@ -259,7 +295,10 @@ std::vector<double> Run::amounts() const {
 }
 
 /// Relative to the size of the fields. Spacing and look of finished patterns do not change with less.
-double Run::step_tolerance() const { return program_->step_error * stage_program().stepper->tolerance; }
+double Run::step_tolerance() const {
+  const StageProgram& p = stage_program();
+  return program_->step_error * (p.model.jumps() ? p.stepper->jump_tolerance : p.stepper->tolerance);
+}
 
 void Run::accept(const StepReport& report, double dt) {
   RunSummary& summary = now_->summary;
@@ -521,6 +560,7 @@ void Run::restore(const std::string& bytes) {
   finished_ = std::move(s.finished);
   now_ = std::move(stage);
   warnings_ = std::move(warnings);
+  show_followers();
 }
 
 }  // namespace pelage

@@ -76,10 +76,12 @@ class Run {
   void next_stage();
   Snapshot read_snapshot(const std::string& bytes) const;
   bool fits(const Snapshot& snapshot) const;
+  double stage_fraction() const;
   double next_step() const;
   double step_tolerance() const;
   void follow_surface(double time);
   void keep_amounts(const SparseMatrix& mass_before);
+  void show_followers();
   void accept(const StepReport& report, double dt);
   bool takes_too_long() const;
   void fail(const std::string& reason);

@@ -31,9 +31,9 @@ StageSystem::StageSystem(const StageProgram& stage, std::shared_ptr<const Space>
   system_.mass = sampled.mass;
   system_.sampling = sampled.sampling;
   system_.held = material_->held;
-  kinetics_ = kinetics_at(stage.stepper->samples);
+  kinetics_ = kinetics_at(stage.stepper->samples, Kinetics::Parts::all);
   if (has_own_stiffness(stage.model)) {
-    quadrature_kinetics_ = kinetics_at(SampleRule::quadrature);
+    quadrature_kinetics_ = kinetics_at(SampleRule::quadrature, Kinetics::Parts::diffusion);
     quadrature_values_ = space_->quadrature_values();
   }
   for (std::size_t i = 0; i < stage.model.species_count(); ++i) add_species(i);
@@ -41,10 +41,10 @@ StageSystem::StageSystem(const StageProgram& stage, std::shared_ptr<const Space>
   add_reaction();
 }
 
-std::shared_ptr<const Kinetics> StageSystem::kinetics_at(SampleRule rule) const {
+std::shared_ptr<const Kinetics> StageSystem::kinetics_at(SampleRule rule, Kinetics::Parts parts) const {
   const PlaceFields fields = place_fields(stage_->model, *space_, rule, material_->attributes);
   return std::make_shared<const Kinetics>(stage_->model, fields.places(material_->at(rule), stage_->length_unit),
-                                          stage_->seed);
+                                          stage_->seed, parts);
 }
 
 void StageSystem::add_species(std::size_t i) {
@@ -56,6 +56,7 @@ void StageSystem::add_species(std::size_t i) {
   s.stiffness = space_->stiffness();
   s.diffusion = stage_->length_unit * stage_->length_unit;  // model length^2 to world length^2
   s.algebraic = model.algebraic(i);
+  s.follows = model.follows(i);
   if (const auto constant = model.diffusion_constant(i)) s.diffusion *= *constant;
   system_.species.push_back(std::move(s));
   if (has_own_stiffness(model, i)) fill_own_stiffness(i);
@@ -83,12 +84,8 @@ void StageSystem::add_reaction() {
                                                   const MutableFieldPointers& rate) {
     kinetics->rates(u, t, begin, end, rate);
   };
-  system_.reaction.float_rates = [kinetics = kinetics_](double t) -> FloatRates {
-    return [kinetics, scalars = kinetics->float_scalars(t)](std::span<const float* const> u, std::size_t first,
-                                                            std::size_t count, std::span<float* const> rate) {
-      kinetics->rates(u, scalars, first, count, rate);
-    };
-  };
+  system_.reaction.float_rates = [kinetics = kinetics_](double t) { return kinetics->float_rates(t); };
+  system_.reaction.float_jacobian = [kinetics = kinetics_](double t) { return kinetics->float_jacobian(t); };
   system_.reaction.split = [kinetics = kinetics_](const FieldPointers& u, double t, std::size_t begin, std::size_t end,
                                                   const MutableFieldPointers& c2, const MutableFieldPointers& c3) {
     kinetics->split(u, t, begin, end, c2, c3);
@@ -222,6 +219,7 @@ std::vector<Vector> StageSystem::initial() const {
   if (!solve_algebraic(system_, 0, coefficients, 1e-10).converged)
     throw Error(Fault::numerics,
                 "the initial " + coupled_names(system_) + " cannot be found: the solve did not converge");
+  follow(system_, 0, coefficients);
   return coefficients;
 }
 

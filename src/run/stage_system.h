@@ -32,7 +32,7 @@ class StageSystem {
     std::vector<Vector> c0, c1;
   };
   static Coefficients evaluate_diffusion(const Kinetics& kinetics, const std::vector<Vector>& fields, double time);
-  std::shared_ptr<const Kinetics> kinetics_at(SampleRule rule) const;
+  std::shared_ptr<const Kinetics> kinetics_at(SampleRule rule, Kinetics::Parts parts) const;
   void add_species(std::size_t i);
   void couple_species();
   void add_reaction();

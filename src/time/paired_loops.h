@@ -109,8 +109,8 @@ PELAGE_TARGET inline void put_together(const float* u, const float* v, Full& fir
 #endif
 }
 
-/// `step`: between what the columns of one slice and the next are counted from.
-template <class Column>
+/// `step`: between what the columns of one slice and the next are counted from. `twin`: values for either species.
+template <bool twin, class Column>
 PELAGE_TARGET void multiply_from(const SlicedMatrix& matrix, const Column* column, std::size_t step,
                                  const float* values, const float* x, const float* base, const float* scale,
                                  std::size_t first, std::size_t last, float* out) {
@@ -129,7 +129,10 @@ PELAGE_TARGET void multiply_from(const SlicedMatrix& matrix, const Column* colum
       for (std::size_t p = 0; p < parts; ++p) {
         Gathered other, value;
         gather(from, column + slice_rows * e + p * pairs, other);
-        twice(values + slice_rows * e + p * pairs, value);
+        if constexpr (twin)
+          load(values + 2 * slice_rows * e + p * gathered_lanes, value);
+        else
+          twice(values + slice_rows * e + p * pairs, value);
         sum[p] += value * (other - own[p]);
       }
     for (std::size_t p = 0; p < parts; ++p) {
@@ -145,12 +148,24 @@ PELAGE_TARGET void multiply_from(const SlicedMatrix& matrix, const Column* colum
   }
 }
 
+template <bool twin>
 PELAGE_TARGET void multiply(const SlicedMatrix& matrix, const float* values, const float* x, const float* base,
                             const float* scale, std::size_t first, std::size_t last, float* out) {
   if (matrix.column.empty())
-    multiply_from(matrix, matrix.near.data(), slice_rows, values, x, base, scale, first, last, out);
+    multiply_from<twin>(matrix, matrix.near.data(), slice_rows, values, x, base, scale, first, last, out);
   else
-    multiply_from(matrix, matrix.column.data(), 0, values, x, base, scale, first, last, out);
+    multiply_from<twin>(matrix, matrix.column.data(), 0, values, x, base, scale, first, last, out);
+}
+
+PELAGE_TARGET void diffuse(const SlicedMatrix& matrix, const float* x, const float* base, const float* scale,
+                           std::size_t first, std::size_t last, float* out) {
+  const auto times = matrix.twin ? multiply<true> : multiply<false>;
+  times(matrix, matrix.diffusion.data(), x, base, scale, first, last, out);
+}
+
+PELAGE_TARGET void correct(const SlicedMatrix& matrix, const float* x, const float* base, const float* scale,
+                           std::size_t first, std::size_t last, float* out) {
+  multiply<false>(matrix, matrix.correction.data(), x, base, scale, first, last, out);
 }
 
 PELAGE_TARGET void separate(const float* __restrict a, const float* __restrict b, std::size_t count,
@@ -346,4 +361,4 @@ PELAGE_TARGET void error(const ErrorTerms& terms, const float* y0, const float* 
   }
 }
 
-constexpr NodeLoops loops = {multiply, separate, stage, join, finish, error, add_rates};
+constexpr NodeLoops loops = {diffuse, correct, separate, stage, join, finish, error, add_rates};

@@ -56,10 +56,12 @@ const NodeLoops& node_loops(InstructionSet set) {
   }
 }
 
-SlicedMatrix slice(const SparseMatrix& stiffness, const SparseMatrix& mass, const Vector& lumped,
+SlicedMatrix slice(std::span<const SharedMatrix> stiffness, const SparseMatrix& mass, const Vector& lumped,
                    const std::vector<char>* held) {
-  const SparsePattern& pattern = *stiffness.pattern;
+  const SparsePattern& pattern = *stiffness[0]->pattern;
+  const std::size_t count = stiffness.size();
   SlicedMatrix m;
+  m.twin = count == 2;
   m.rows = static_cast<std::size_t>(pattern.rows);
   const bool corrected = !diagonal_only(mass);
   m.start.push_back(0);
@@ -71,7 +73,7 @@ SlicedMatrix slice(const SparseMatrix& stiffness, const SparseMatrix& mass, cons
   }
   const std::size_t size = slice_rows * m.start.back();
   m.column.resize(size);
-  m.diffusion.resize(size);
+  m.diffusion.resize(count * size);
   if (corrected) m.correction.resize(size);
   parallel_for(
       m.slices(),
@@ -86,7 +88,8 @@ SlicedMatrix slice(const SparseMatrix& stiffness, const SparseMatrix& mass, cons
               for (auto e = pattern.start[i]; e < pattern.start[i + 1]; ++e) {
                 if (pattern.column[e] == static_cast<std::int32_t>(i)) continue;
                 m.column[at] = pattern.column[e];
-                m.diffusion[at] = static_cast<float>(scale * stiffness.value[e]);
+                for (std::size_t lane = 0; lane < count; ++lane)
+                  m.diffusion[count * at + lane] = static_cast<float>(scale * stiffness[lane]->value[e]);
                 if (corrected) m.correction[at] = static_cast<float>(scale * mass.value[e]);
                 at += slice_rows;
               }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <span>
 #include <vector>
 
 #include "base/instruction_set.h"
@@ -47,14 +48,16 @@ struct SlicedMatrix {
   std::vector<std::size_t> start;
   AlignedVector<std::int32_t> column;  ///< empty where `near` serves
   AlignedVector<std::int16_t> near;    ///< column less the first row of the slice, which is less to read
-  AlignedVector<float> diffusion;      ///< -L^-1 K
+  AlignedVector<float> diffusion;      ///< -L^-1 K; with two K first those of the first, then of the second of a pair
+                                       ///< of species: entry e of row 8 s + k at 2 (8 (start[s] + e) + k)
+  bool twin = false;                   ///< two K
   AlignedVector<float> correction;     ///< E = I - L^-1 M; empty where M is diagonal
 
   std::size_t slices() const { return start.size() - 1; }
 };
 
-/// `lumped`: L. Rows of held nodes are zero. Of one size and pattern all.
-SlicedMatrix slice(const SparseMatrix& stiffness, const SparseMatrix& mass, const Vector& lumped,
+/// `stiffness`: one K, or two. `lumped`: L. Rows of held nodes are zero. Of one size and pattern all.
+SlicedMatrix slice(std::span<const SharedMatrix> stiffness, const SparseMatrix& mass, const Vector& lumped,
                    const std::vector<char>* held);
 
 /// What makes a stage out of the ones before, for differences from the start of the step:
@@ -88,10 +91,12 @@ struct ErrorTerms {
 };
 
 struct NodeLoops {
-  /// out = base + scale (A x) for the rows of slices [first, last); `values`: those of A; `base` may be null; `scale`:
-  /// of either species. `base` and `out` point at slice `first`.
-  void (*multiply)(const SlicedMatrix& matrix, const float* values, const float* x, const float* base,
-                   const float* scale, std::size_t first, std::size_t last, float* out);
+  /// out = base + scale (A x) for the rows of slices [first, last); A: the diffusion or the correction; `base` may be
+  /// null; `scale`: of either species. `base` and `out` point at slice `first`.
+  void (*diffuse)(const SlicedMatrix& matrix, const float* x, const float* base, const float* scale, std::size_t first,
+                  std::size_t last, float* out);
+  void (*correct)(const SlicedMatrix& matrix, const float* x, const float* base, const float* scale, std::size_t first,
+                  std::size_t last, float* out);
   /// u, v = a + b; `b` may be null.
   void (*separate)(const float* a, const float* b, std::size_t count, float* u, float* v);
   /// d holds d_(j-2) and becomes d_j; r in two fields.

@@ -181,7 +181,8 @@ StepReport Sbdf2::step(const System& system, State& state, const StepRequest& re
   next_.resize(system.species.size());
   for (std::size_t i = 0; i < system.species.size(); ++i) {
     const Species& species = system.species[i];
-    if (species.coupled) continue;
+    if (species.follows) next_[i] = state.now[i];
+    if (species.coupled || species.follows) continue;
     matrices_[i].update(mass_of(system, i), s.alpha, species.stiffness, dt * species.diffusion);
     right_hand_side(system, s, i);
     first_guess(system, state, i, dt);
@@ -226,6 +227,7 @@ constexpr StepperKind sbdf2 = {.name = "sbdf2",
                                .keeps_rates = true,
                                .amplification = amplification,
                                .tolerance = 1e-2,
+                               .jump_tolerance = 1e-2,
                                .dilutes = true};
 
 }  // namespace pelage

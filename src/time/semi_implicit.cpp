@@ -25,6 +25,7 @@ class SemiImplicitEuler final : public Stepper {
     next_ = state.now;
     for (std::size_t i = 0; i < system.species.size() && report.failure.empty(); ++i) {
       const Species& species = system.species[i];
+      if (species.follows) continue;
       const SparseMatrix& mass = *mass_of(system, i);
       const Vector over_c0 = weight_of(system, i).cwiseQuotient(system.sampling->weight);
       const SparseMatrix reaction = system.weighted_mass(c2_[i].cwiseProduct(over_c0));

@@ -26,6 +26,16 @@ void evaluate_rates(const System& system, const std::vector<Vector>& samples, do
                [&](std::size_t begin, std::size_t end) { system.reaction.rates(u, t, begin, end, out); });
 }
 
+void follow(const System& system, double t, std::vector<Vector>& coefficients) {
+  if (std::ranges::none_of(system.species, &Species::follows)) return;
+  std::vector<Vector> samples, rates;
+  sample_fields(system, coefficients, samples);
+  evaluate_rates(system, samples, t, rates);
+  for (std::size_t i = 0; i < coefficients.size(); ++i)
+    if (system.species[i].follows)
+      coefficients[i] = coefficients_from_samples(*system.sampling, *system.mass, rates[i]);
+}
+
 SolveReport solve_algebraic(const System& system, double t, std::vector<Vector>& coefficients, double tolerance) {
   const CoupledSpecies& c = system.coupled;
   std::vector<Eigen::Index> algebraic;
@@ -75,6 +85,7 @@ void advance(const System& system, State& state, double dt, std::vector<Vector>&
   report.change = 0;
   for (std::size_t i = 0; i < next.size(); ++i) {
     const Species& species = system.species[i];
+    if (species.follows) continue;
     const Eigen::Index bad = first_blown_up(next[i]);
     if (bad >= 0 && report.failure.empty())
       report.failure = species.name + " grows beyond all bounds at vertex " + std::to_string(bad);

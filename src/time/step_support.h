@@ -12,7 +12,10 @@ void sample_fields(const System& system, const std::vector<Vector>& coefficients
 /// Reaction rates at the samples.
 void evaluate_rates(const System& system, const std::vector<Vector>& samples, double t, std::vector<Vector>& rates);
 
-/// Replaces the coefficients of algebraic species by those that the evolving ones determine at time t.
+/// Replaces the coefficients of the species that Species::follows by those that the others determine at time t.
+void follow(const System& system, double t, std::vector<Vector>& coefficients);
+
+/// Replaces the coefficients of coupled algebraic species by those that the evolving ones determine at time t.
 SolveReport solve_algebraic(const System& system, double t, std::vector<Vector>& coefficients, double tolerance);
 
 /// Root mean square of the coefficients below which differences of a species count for nothing, so that one that decays

@@ -15,7 +15,8 @@ namespace pelage {
 struct StepReport {
   bool accepted = false;  ///< the state has advanced
   std::string failure;    ///< why it has not; empty when only the error estimate was too large
-  int iterations = 0;     ///< of the linear solver, all species together
+  int iterations = 0;     ///< stages, or of the linear solver, all species together
+  double bytes = 0;       ///< that these read and wrote, at least: every array once a pass; 0 where not counted
   double residual = 0;    ///< relative, the largest of all species
   double error = 0;       ///< estimated local error relative to the size of the fields; 0 when unknown
   double change = 0;      ///< of the pattern per unit of time: root mean square of du/dt over that of the deviation
@@ -49,6 +50,8 @@ struct StepperKind {
   bool keeps_rates;    ///< State::past_rates
   Amplification* amplification;  ///< of a wave, see time/linearisation.h
   double tolerance = 0;          ///< of adaptive ones: error per step that pictures do not show
+  double jump_tolerance = 0;     ///< the same where rates jump: nodes that a front has just passed count as errors, but
+                                 ///< only the front is late, by part of a step
   bool any_step = false;         ///< stable at every step: its error estimate alone limits the step
   bool dilutes = false;          ///< of second order where amounts ride along with a surface that grows
   bool nodal = false;            ///< only for systems whose unknowns are the values at the samples

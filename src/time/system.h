@@ -21,8 +21,8 @@ namespace pelage {
 using FieldPointers = std::vector<const double*>;
 using MutableFieldPointers = std::vector<double*>;
 
-/// The reaction at one time in single precision, for `count` samples from number `first` on: u[i][k] and rate[i][k]
-/// belong to sample first + k. Called from several threads for disjoint ranges.
+/// The reaction, or its Jacobian, at one time in single precision, for `count` samples from number `first` on: u[i][k]
+/// and rate[i][k] belong to sample first + k. Called from several threads for disjoint ranges.
 using FloatRates = std::function<void(std::span<const float* const> u, std::size_t first, std::size_t count,
                                       std::span<float* const> rate)>;
 
@@ -34,6 +34,8 @@ struct Reaction {
       rates;
   /// `rates` at a time t in single precision; empty: steppers that compute in it convert those of `rates`.
   std::function<FloatRates(double t)> float_rates;
+  /// dR_i/du_j, between jumps, as rate[i * species + j]; empty: steppers go by differences alone.
+  std::function<FloatRates(double t)> float_jacobian;
   /// R_i = c2_i u_i + c3_i, the split of eq. (2) that the semi-implicit Euler scheme needs.
   std::function<void(const FieldPointers& u, double t, std::size_t begin, std::size_t end,
                      const MutableFieldPointers& c2, const MutableFieldPointers& c3)>
@@ -50,6 +52,7 @@ struct Species {
   SharedVector weight;
   bool coupled = false;  ///< part of System::coupled, which then holds the diffusion instead
   bool algebraic = false;
+  bool follows = false;  ///< algebraic, and no step needs it: steppers leave it alone, see follow()
   double lower = -std::numeric_limits<double>::infinity();  ///< clamps of the coefficients after a step; as the basis
   double upper = std::numeric_limits<double>::infinity();   ///< functions are non-negative they bound the field too
 };

@@ -67,10 +67,10 @@ TEST(Bind, LayersReadCurvaturesAndNormals) {
                                          "[[look.layers]]\ncolor = \"#ffffff\"\nopacity = \"0.1*k1*k2 + 0.1*H*nx^2 + "
                                          "0.1*H*ny^2 + 0.1*H*nz^2\"\n",
                                      "test.toml");
-  for (const bool keep_shape : {false, true})
+  for (const bool flat : {false, true})
     for (const char* method : {"loop", "linear"}) {
       Recipe r = recipe;
-      r.look.keep_shape = keep_shape;
+      r.look.flat = flat;
       r.stages[0].method.value = method;
       pelage::Run run(make_program(r, builtin_shape("builtin:sphere?n=642")));
       run.advance(10);

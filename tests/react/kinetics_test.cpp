@@ -193,7 +193,7 @@ TEST(Kinetics, RatesOfEveryModelInSinglePrecisionAreThoseInDouble) {
       single_out.push_back(single_rate[i].data());
     }
     kinetics.rates(in, 0.7, 0, samples, out);
-    kinetics.rates(single_in, kinetics.float_scalars(0.7), first, count, single_out);
+    kinetics.float_rates(0.7)(single_in, first, count, single_out);
     for (std::size_t i = 0; i < n; ++i) {
       double largest = 0;
       for (const double r : rate[i]) largest = std::max(largest, std::abs(r));

@@ -53,6 +53,19 @@ TEST(Laplacian, AlgebraicSpeciesAreDeterminedByTheOthers) {
   EXPECT_EQ(m.coupled(), (std::vector<std::size_t>{0, 1}));
 }
 
+TEST(Laplacian, AlgebraicSpeciesThatNobodyReadsFollow) {
+  const std::string u = "[species.u]\nrate = '-u'\ndiffusion = 1\n";
+  const auto follows = [](const std::string& text) { return model_of(text).follows(1); };
+  EXPECT_TRUE(follows(u + "[species.w]\nequals = 'u^2'\n"));
+  EXPECT_TRUE(model_of(u + "[species.w]\nequals = 'u^2'\n").coupled().empty());
+  EXPECT_FALSE(follows(u + "[species.w]\nequals = 'u^2 + lap(w)'\n"));
+  EXPECT_FALSE(follows(u + "[species.w]\nequals = 'lap(u)'\n"));
+  EXPECT_FALSE(follows("[species.u]\ndiffusion = 1\nrate = 'w - u'\n[species.w]\nequals = 'u^2'\n"));
+  EXPECT_FALSE(follows("[species.u]\ndiffusion = 1\nrate = 'lap(w) - u'\n[species.w]\nequals = 'u^2'\n"));
+  EXPECT_FALSE(follows("[species.u]\nrate = '-u'\ndiffusion = '1 + w^2'\n[species.w]\nequals = 'u^2'\n"));
+  EXPECT_FALSE(follows("[species.u]\nrate = '-u'\ndiffusion = 1\n[species.w]\ndiffusion = 0\nrate = 'u'\n"));
+}
+
 TEST(Laplacian, FaultsAreLocated) {
   const std::string varies =
       "must stand alone or times numbers and parameters; a coefficient that varies belongs in `diffusion`";

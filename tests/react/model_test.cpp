@@ -91,6 +91,18 @@ TEST(Model, UnknownAndOutOfRangeParameters) {
             "model \"test\" has no variant \"hungri\"; did you mean \"hungry\"?");
 }
 
+TEST(Model, KnowsWhetherRatesJump) {
+  const auto jumps = [](const std::string& rate) {
+    return compile(parse_model("name = 'm'\n[species.u]\ndiffusion = 1\nrate = '" + rate + "'\n[parameters]\np = 1\n",
+                               "m.toml"))
+        .jumps();
+  };
+  for (const char* rate : {"if(u > 0.5, 1, 0)", "floor(u)", "if(u, x, 0)", "(u > 1)*u"})
+    EXPECT_TRUE(jumps(rate)) << rate;
+  for (const char* rate : {"u*u", "if(p > 0.5, u, 0)", "if(x > 0, u, -u)", "max(u, 0)", "abs(u)", "floor(x)*u"})
+    EXPECT_FALSE(jumps(rate)) << rate;
+}
+
 TEST(Model, FaultsAreLocated) {
   EXPECT_EQ(fault("-u*w + feed", "-u*w + fed"), "m.toml:4:16: unknown name \"fed\"; did you mean \"feed\"?");
   EXPECT_EQ(fault("v^2", "v^2 + w"), "m.toml:13:12: \"w\" is being defined here; a definition cannot use itself");

@@ -42,6 +42,28 @@ SparseMatrix stiffness(const TriangleMesh& mesh, const Discretisation& d, double
                                                                 constant_rates(d, theta, a1, a2)));
 }
 
+TEST(Directions, UnderAllNamesThatProgramsGiveThem) {
+  TriangleMesh mesh = builtin_shape("builtin:plane?n=100");
+  const auto topology = make_topology(mesh.points.size(), mesh.triangles);
+  set_directions(mesh, [](const Point& p) { return unit({1, p[0], 0}); });
+  const std::vector<Tensor> lines = vertex_lines(mesh, {}, topology);
+  const Attribute given = *mesh.find(direction_attribute);
+  mesh.attributes = {given};
+  mesh.attributes[0].name = "DIRECTION";  // glTF's _DIRECTION
+  EXPECT_EQ(vertex_lines(mesh, {}, topology), lines);
+  for (const auto& ends : {std::array{"_1", "_2", "_3"}, {"_0", "_1", "_2"}, {"_x", "_y", "_z"}, {"_X", "_Y", "_Z"}}) {
+    mesh.attributes.clear();
+    for (std::size_t k = 0; k < 3; ++k) {
+      Attribute part{std::string("Direction") + ends[k], 1, Domain::vertex, {}};
+      for (std::size_t i = k; i < given.values.size(); i += 3) part.values.push_back(given.values[i]);
+      mesh.attributes.push_back(part);
+    }
+    EXPECT_EQ(vertex_lines(mesh, {}, topology), lines) << ends[0];
+  }
+  mesh.attributes.clear();
+  EXPECT_NE(vertex_lines(mesh, {}, topology), lines);
+}
+
 class EveryMethod : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, ::testing::Values("loop", "linear"),
                          [](const auto& name) { return name.param; });

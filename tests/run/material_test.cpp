@@ -63,6 +63,17 @@ TEST(PlaceFields, GiveAttributesOfTheMeshToFormulas) {
   EXPECT_LT((samples(same) - u).norm(), 1e-12);
 }
 
+TEST(PlaceFields, NamesOfAttributesCountWithoutCase) {
+  TriangleMesh mesh = with_height(builtin_shape("builtin:sphere?n=162"));
+  const Vector u = samples(standing("attribute(height)", mesh));
+  EXPECT_EQ(samples(standing("attribute(HEIGHT)", mesh)), u);
+  EXPECT_EQ(samples(standing("attribute(Place_3)", mesh)), u);
+  mesh.set({"Height", 1, Domain::vertex, std::vector<double>(mesh.points.size(), 7)});
+  EXPECT_EQ(samples(standing("attribute(height)", mesh)), u);
+  EXPECT_NEAR(samples(standing("attribute(Height)", mesh)).minCoeff(), 7, 1e-9);
+  EXPECT_THROW(standing("attribute(HEIGHT)", mesh), Error);  // which of the two?
+}
+
 TEST(PlaceFields, OfAMeshOfItsOwnAreThoseOfThePlace) {
   const TriangleMesh mesh = with_height(builtin_shape("builtin:sphere?n=2562"));
   const auto height = standing("attribute(height)", mesh, "sbdf2", "0", "remeshed");

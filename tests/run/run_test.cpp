@@ -53,6 +53,28 @@ TEST_P(EveryStepper, TwoSlicesAreOneSliceBitForBit) {
   EXPECT_GT((whole.coefficients()[0].array() - whole.coefficients()[0].mean()).matrix().norm(), 0);
 }
 
+/// What is only shown is found at the end of every slice, and takes no part in the steps.
+TEST(Run, SpeciesThatFollowAreTheirFormulaAndLeaveTheStepsAlone) {
+  for (const std::string method : {"remeshed", "loop"}) {
+    Recipe recipe = small_recipe("witkin-kass-2");
+    recipe.stages[0].method.value = method;
+    auto whole = start(recipe), sliced = start(recipe), resumed = start(recipe);
+    whole.advance(12);
+    sliced.advance(5);
+    resumed.restore(sliced.checkpoint());
+    sliced.advance(7);
+    resumed.advance(7);
+    expect_same(whole, sliced);
+    expect_same(whole, resumed);
+    const SparseMatrix& values = whole.system().sampling->values;
+    std::vector<Vector> u;
+    for (const Vector& c : whole.coefficients()) u.push_back(values * c);
+    const Vector expected = (u[3] - u[2]).cwiseMax(u[1] - u[0]);  // p1 - q1, p2 - q2
+    EXPECT_LT((u[4] - expected).norm(), 1e-8 * expected.norm()) << method;
+    EXPECT_LE(whole.summary().minimum, minimum(whole.coefficients()[4]));
+  }
+}
+
 TEST(Run, FortyAndSixtyStepsAreAHundred) {
   auto whole = start(small_recipe()), sliced = start(small_recipe());
   whole.advance(100);

@@ -196,6 +196,61 @@ TEST(Rkc2, GivesTheSameBitsForAnyThreadsAndInstructions) {
   }
 }
 
+/// Two species with operators of their own share a register; each must come out as if it were alone.
+TEST(Rkc2, SpeciesOfDifferentOperatorsGrowAsEachAlone) {
+  NodalBench both(2000);
+  SparseMatrix scaled = both.problem.stiffness;
+  for (double& value : scaled.value) value *= 3;
+  const auto wave = [](const Point& x) { return 0.5 + 0.3 * x[0] - 0.2 * x[1] * x[2]; };
+  both.add(0.02, wave);
+  both.add(0.02, wave);
+  both.system.species[1].stiffness = std::make_shared<const SparseMatrix>(scaled);
+  const State together = both.run(*make_rkc2(), 1, 10);
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+    NodalBench alone(2000);
+    alone.add(0.02, wave);
+    alone.system.species[0].stiffness = both.system.species[i].stiffness;
+    EXPECT_LT(relative(alone.run(*make_rkc2(), 1, 10).now[0], together.now[i]), 1e-5) << i;
+  }
+  EXPECT_GT(relative(together.now[0], together.now[1]), 1e-2);
+}
+
+/// A rate that is 0 or 1 has no slope but where it jumps: it must not cost more evaluations than none.
+TEST(Rkc2, AJumpIsNoStiffness) {
+  const auto evaluations = [](bool jumps) {
+    NodalBench bench(642);
+    bench.add(0.02, [](const Point& x) { return x[0]; });
+    bench.react([jumps](const std::vector<double>& u, double, std::vector<double>& rate) {
+      rate[0] = jumps && u[0] > 0 ? 1 : 0;
+    });
+    bench.system.reaction.float_jacobian = [](double) -> FloatRates {
+      return [](std::span<const float* const>, std::size_t, std::size_t count, std::span<float* const> slope) {
+        std::fill_n(slope[0], count, 0.0f);
+      };
+    };
+    State s = bench.state;
+    return make_rkc2()->step(bench.system, s, {.dt = 1}).iterations;
+  };
+  EXPECT_EQ(evaluations(true), evaluations(false));
+}
+
+/// And a root that begins with an unbounded slope must not make steps impossible.
+TEST(Rkc2, ARootIsNoInfiniteStiffness) {
+  NodalBench bench(162);
+  bench.add(0.01, [](const Point& x) { return std::max(0.0, x[0]); });
+  bench.react([](const std::vector<double>& u, double, std::vector<double>& rate) { rate[0] = -std::sqrt(u[0]); });
+  bench.system.reaction.float_jacobian = [](double) -> FloatRates {
+    return [](std::span<const float* const> u, std::size_t, std::size_t count, std::span<float* const> slope) {
+      for (std::size_t k = 0; k < count; ++k) slope[0][k] = -0.5f / std::sqrt(u[0][k]);
+    };
+  };
+  bench.system.species[0].lower = 0;
+  State s = bench.state;
+  const StepReport report = make_rkc2()->step(bench.system, s, {.dt = 0.1});
+  EXPECT_TRUE(report.accepted) << report.failure;
+  EXPECT_LT(report.iterations, 50);
+}
+
 TEST(Rkc2, ContinuesFromTheStateAlone) {
   NodalBench bench;
   bench.react_with_waves(true);
