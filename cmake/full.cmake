@@ -6,9 +6,19 @@ find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(embree 3 REQUIRED)
 find_path(STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb REQUIRED)
+find_path(LIBDEFLATE_INCLUDE_DIR libdeflate.h REQUIRED)
+find_library(LIBDEFLATE_LIBRARY deflate REQUIRED)
 find_file(DEJAVU_SANS DejaVuSans.ttf PATHS /usr/share/fonts PATH_SUFFIXES truetype/dejavu dejavu TTF dejavu-sans-fonts REQUIRED)
 find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
 find_library(TINYGLTF_LIBRARY tinygltf REQUIRED)
+option(PELAGE_DRACO "Read glTF that Draco compressed, where its library is found" ON)
+option(PELAGE_MESHOPTIMIZER "Read glTF that meshoptimizer compressed, where its library is found" ON)
+if(PELAGE_DRACO)
+  find_package(draco QUIET CONFIG)
+endif()
+if(PELAGE_MESHOPTIMIZER)
+  find_package(meshoptimizer QUIET CONFIG)
+endif()
 
 # --- the libraries, from left to right in the line of layers (docs/architecture.md) ----------------------
 # Threads: base/parallel.cpp is all that differs from the core alone.
@@ -16,10 +26,18 @@ set_source_files_properties(src/base/parallel.cpp PROPERTIES COMPILE_DEFINITIONS
 target_link_libraries(pelage_core PRIVATE TBB::tbb)
 
 pelage_library(pelage_io io recipe)  # files and texts
-target_include_directories(pelage_io SYSTEM PRIVATE ${STB_INCLUDE_DIR} ${TINYGLTF_INCLUDE_DIR})
+target_include_directories(pelage_io SYSTEM PRIVATE ${STB_INCLUDE_DIR} ${TINYGLTF_INCLUDE_DIR} ${LIBDEFLATE_INCLUDE_DIR})
 target_link_libraries(pelage_io PUBLIC pelage_core PRIVATE tomlplusplus::tomlplusplus
   $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>  # a header of tinygltf
-  $<BUILD_INTERFACE:${TINYGLTF_LIBRARY}> $<INSTALL_INTERFACE:tinygltf>)
+  $<BUILD_INTERFACE:${TINYGLTF_LIBRARY}> $<INSTALL_INTERFACE:tinygltf>
+  $<BUILD_INTERFACE:${LIBDEFLATE_LIBRARY}> $<INSTALL_INTERFACE:deflate>)
+foreach(packer draco meshoptimizer)  # optional: without them compressed files are refused by name
+  if(TARGET ${packer}::${packer})
+    string(TOUPPER PELAGE_HAS_${packer} found)
+    set_source_files_properties(src/io/gltf_${packer}.cpp PROPERTIES COMPILE_DEFINITIONS ${found})
+    target_link_libraries(pelage_io PRIVATE $<BUILD_INTERFACE:${packer}::${packer}> $<INSTALL_INTERFACE:${packer}>)
+  endif()
+endforeach()
 
 pelage_library(pelage_look look)  # colours, plots, lettering
 target_include_directories(pelage_look SYSTEM PRIVATE ${STB_INCLUDE_DIR})

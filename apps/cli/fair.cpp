@@ -8,8 +8,7 @@
 #include "command.h"
 #include "fair/attribute.h"
 #include "interrupt.h"
-#include "io/write_mesh.h"
-#include "pelage/io.h"
+#include "outputs.h"
 #include "progress_bar.h"
 #include "text.h"
 
@@ -96,11 +95,25 @@ Faired faired(const FairCommand& command, const TriangleMesh& mesh, const Progre
   return fair(mesh, options, progress);
 }
 
+/// The file's own mesh with its points where they are now, and with the attribute that was smoothed.
+PolygonMesh in_form_of_file(const FairCommand& command, const ShapeFile& file, TriangleMesh mesh) {
+  if (!file.source) return polygons_of(mesh);
+  std::erase_if(mesh.attributes, [&](const Attribute& a) { return a.name != command.attribute; });
+  return as_in_file(*file.source, mesh);
+}
+
 template <class Result>
-void finish(const FairCommand& command, const Result& result, ProgressBar& bar) {
+void finish(const FairCommand& command, const ShapeFile& file, const Result& result, ProgressBar& bar) {
   bar.clear();
-  for (const std::string& path : command.outputs) save(result.mesh, path);
-  if (command.json) return print_json(to_json(command, result.report));
+  if (!command.quiet && !command.json) print_findings(file.findings);
+  const std::vector<std::string> warnings =
+      save_all(in_form_of_file(command, file, result.mesh), command.outputs, {object_name(command.shape), file.up});
+  if (command.json) {
+    Json json = to_json(command, result.report);
+    json["findings"] = json_findings(file.findings);
+    json["warnings"] = warnings;
+    return print_json(json);
+  }
   if (command.quiet) return;
   print_report(command, result.report);
   for (const std::string& path : command.outputs) std::printf("wrote     %s\n", path.c_str());
@@ -110,11 +123,11 @@ void run_fair(const FairCommand& command) {
   for (const std::string& path : command.outputs) check_mesh_path(path);
   catch_interrupts();
   ProgressBar bar(command.quiet || command.json ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
-  const TriangleMesh mesh = read_shape(command.shape).mesh;
+  const ShapeFile file = read_shape(command.shape);
   if (command.attribute.empty())
-    finish(command, faired(command, mesh, bar.progress()), bar);
+    finish(command, file, faired(command, file.mesh, bar.progress()), bar);
   else
-    finish(command, smooth(command, mesh, bar.progress()), bar);
+    finish(command, file, smooth(command, file.mesh, bar.progress()), bar);
 }
 
 void add_method_options(CLI::App* app, FairCommand& command) {

@@ -15,7 +15,7 @@
 #include "direction/hatching.h"
 #include "interrupt.h"
 #include "io/png_writer.h"
-#include "io/write_mesh.h"
+#include "outputs.h"
 #include "pelage/io.h"
 #include "pelage/render.h"
 #include "progress_bar.h"
@@ -100,13 +100,13 @@ TriangleMesh with_field(TriangleMesh mesh, const Connection& c, const DirectionF
   return mesh;
 }
 
-void draw(const FieldCommand& o, const TriangleMesh& mesh, const Connection& c, const DirectionField& field,
+void draw(const FieldCommand& o, const TriangleMesh& mesh, UpAxis up, const Connection& c, const DirectionField& field,
           const Progress& progress) {
   PictureOptions options;
   options.width = options.height = o.size;
   options.azimuth = o.azimuth;
   options.elevation = o.elevation;
-  options.up = o.up_z ? UpAxis::z : UpAxis::y;
+  options.up = up;
   write_png(render(hatched(mesh, c, field, {o.spacing * box_of(mesh.points).diagonal()}), options, progress),
             o.picture);
 }
@@ -139,12 +139,14 @@ void run_field(const FieldCommand& o) {
   require_one_guide(o);
   catch_interrupts();
   ProgressBar bar(o.quiet || o.json ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
-  const TriangleMesh mesh = read_shape(o.shape).mesh;
+  const ShapeFile file = read_shape(o.shape);
+  const TriangleMesh& mesh = file.mesh;
+  const UpAxis up = o.up_z ? UpAxis::z : file.up;
   const Connection c = make_connection(make_topology(mesh.points.size(), mesh.triangles), mesh.points);
   const double diagonal = box_of(mesh.points).diagonal();
   const DirectionField field = direction_field(c, o.n, find_guides(wish_of(o, diagonal), c, mesh.points, diagonal));
-  for (const std::string& path : o.outputs) save(with_field(mesh, c, field), path);
-  if (!o.picture.empty()) draw(o, mesh, c, field, bar.progress());
+  if (!o.outputs.empty()) save_all(with_field(mesh, c, field), o.outputs, {object_name(o.shape), up});
+  if (!o.picture.empty()) draw(o, mesh, up, c, field, bar.progress());
   bar.clear();
   report(o, mesh, field);
 }
@@ -176,7 +178,7 @@ void add_picture_options(CLI::App* app, FieldCommand& o) {
       ->type_name("X");
   app->add_option("--azimuth", o.azimuth, "Camera's degrees around the up axis (35)")->type_name("DEG");
   app->add_option("--elevation", o.elevation, "Camera's degrees above the horizon (14)")->type_name("DEG");
-  app->add_flag("--up-z", o.up_z, "z points up in the picture (default: y)");
+  app->add_flag("--up-z", o.up_z, "z points up (default: what the file says, otherwise y)");
 }
 
 }  // namespace

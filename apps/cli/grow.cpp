@@ -13,6 +13,7 @@
 #include "interrupt.h"
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
+#include "io/write_mesh.h"
 #include "look/dress.h"
 #include "panels.h"
 #include "pelage/io.h"
@@ -33,6 +34,35 @@ class Stopwatch {
  private:
   using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();
+};
+
+/// How long a growth will take, by the speed of its first steps.
+class GrowthClock {
+ public:
+  /// Of all stages [s]; once, when it is known.
+  std::optional<double> estimate(const Run& run) {
+    constexpr double watched = 0.15;
+    const auto iterations = static_cast<double>(run.summary().iterations);
+    const double now = watch_.seconds();
+    if (told_ || run.stage() > 0 || run.done()) return {};
+    if (seconds_ < 0) {  // the first step sets up the solver
+      seconds_ = now;
+      iterations_ = iterations;
+    }
+    if (now - seconds_ < watched || !(iterations > iterations_)) return {};
+    told_ = true;
+    double rest = -iterations;
+    for (const StageProgram& p : run.program().stages) {
+      if (!p.iterations) return {};
+      rest += *p.iterations;
+    }
+    return now + std::max(0.0, rest) * (now - seconds_) / (iterations - iterations_);
+  }
+
+ private:
+  Stopwatch watch_;
+  double seconds_ = -1, iterations_ = 0;  ///< after the first step
+  bool told_ = false;
 };
 
 /// work(), with a message for people when it is cancelled.
@@ -82,23 +112,38 @@ void advance(Run& run, std::int64_t steps) {
 
 void grow_to_the_end(Run& run, const GrowOptions& options, const Progress& progress, GrowReport& report) {
   std::int64_t steps = 1;
+  GrowthClock clock;
   while (!run.done() && progress("growing", run.fraction())) {
     const Stopwatch watch;
     advance(run, steps);
     steps = next_steps(steps, watch.seconds());
     report.warnings(run);
+    if (const auto seconds = clock.estimate(run)) report.estimate(run, *seconds);
   }
   if (run.summary().status == RunStatus::failed) throw Error(Fault::numerics, run.summary().message);
   if (!options.checkpoint.empty()) write_file(options.checkpoint, run.checkpoint());
   if (interrupt_signal()) interrupted(run, options.checkpoint);
 }
 
-void write_outputs(const GrowOptions& options, const TriangleMesh& coat, const Progress& progress, GrowReport& report) {
+template <class Mesh>
+void write_outputs(const GrowOptions& options, const Mesh& coat, const SaveOptions& form, const Progress& progress,
+                   GrowReport& report) {
   for (const std::string& path : options.outputs) {
     progress("writing " + path, 0);
-    interruptible("before " + path + " was written", [&] { save(coat, path); });
+    interruptible("before " + path + " was written", [&] { save(coat, path, form); });
     report.file(path);
+    for (const std::string& loss : losses(coat, extension_of(path))) report.warning(path + ": " + loss);
   }
+}
+
+/// The file's own mesh and attributes with what the coat adds to them.
+PolygonMesh kept_shape(const ShapeFile& file, const TriangleMesh& coat, const std::vector<std::string>& species) {
+  if (!file.source) return polygons_of(coat);
+  SourceShape source = *file.source;
+  for (Attribute& a : source.polygons.attributes) rename_input(a, species);
+  TriangleMesh added = coat;
+  std::erase_if(added.attributes, [&](const Attribute& a) { return source.polygons.find(a.name) != nullptr; });
+  return as_in_file(source, added);
 }
 
 void write_picture(const std::string& path, const Progress& progress, GrowReport& report,
@@ -112,10 +157,12 @@ void write_picture(const std::string& path, const Progress& progress, GrowReport
   report.file(path);
 }
 
-PictureOptions picture_options(const GrowOptions& options) {
+PictureOptions picture_options(const GrowOptions& options, const Recipe& recipe, UpAxis up) {
+  constexpr int draft_samples = 8;
   PictureOptions picture;
+  if (recipe.quality.value == "draft") picture.samples = draft_samples;
   picture.width = picture.height = options.picture_size;
-  picture.up = options.up;
+  picture.up = up;
   return picture;
 }
 
@@ -129,6 +176,7 @@ GrowReport::Form form_of(const GrowOptions& options) {
 struct Grown {
   TriangleMesh coat;
   std::shared_ptr<const TriangleMesh> shape;
+  std::vector<std::string> species;
 };
 
 Grown grown_coat(const GrowOptions& options, const Plan& planned, const Look& look, TriangleMesh shape,
@@ -144,7 +192,11 @@ Grown grown_coat(const GrowOptions& options, const Plan& planned, const Look& lo
   if (run.world().surface()) report.surface(*run.world().surface());
   if (!options.checkpoint.empty()) report.file(options.checkpoint);
   progress("colouring", 0);
-  return {dress(run.fields(), look), run.program().shape};
+  const CoatFields fields = run.fields();
+  if (look.keep_shape) report.coarseness(run);
+  Grown grown{dress(fields, look), run.program().shape, fields.species};
+  grown.coat.links = grown.shape->links;
+  return grown;
 }
 
 void grow(const GrowOptions& options) {
@@ -165,11 +217,17 @@ void grow(const GrowOptions& options) {
   std::vector<Texture> images = read_images(recipe.textures);
   ShapeFile file = read_shape(recipe.shape);
   report.shape(recipe.shape, file);
+  if (!recipe.look.keep_shape) file.source.reset();
 
   const Grown grown =
       grown_coat(options, planned, recipe.look, std::move(file.mesh), std::move(images), progress, report);
-  write_outputs(options, grown.coat, progress, report);
-  const PictureOptions picture = picture_options(options);
+  const UpAxis up = options.up.value_or(file.up);
+  const SaveOptions form{object_name(recipe.shape), up};
+  if (recipe.look.keep_shape)
+    write_outputs(options, kept_shape(file, grown.coat, grown.species), form, progress, report);
+  else
+    write_outputs(options, grown.coat, form, progress, report);
+  const PictureOptions picture = picture_options(options, recipe, up);
   write_picture(options.picture, progress, report, [&](const Progress& p) { return render(grown.coat, picture, p); });
   write_picture(options.panels, progress, report,
                 [&](const Progress& p) { return four_panels(recipe, *grown.shape, grown.coat, picture, p); });

@@ -165,7 +165,11 @@ void add_look_options(CLI::App& app, GrowOptions& o) {
   app.add_option("--ramp", o.ramp, "Colours (default: tawny)" + choices(ramp_names()))->type_name("NAME")->group(group);
   app.add_flag("--invert", o.invert, "Exchange the ends of the ramp")->group(group);
   app.add_flag("--keep-shape", o.keep_shape,
-               "Colour the shape's own flat triangles, its vertices unmoved, instead of the smooth surface")
+               "Give back the shape as it is, its own vertices and faces in their order with all that the file says of "
+               "them, coloured at the vertices, instead of the smooth surface")
+      ->group(group);
+  app.add_flag("--flat", o.flat,
+               "Colour the shape's flat triangles, split as --detail says, instead of the smooth surface")
       ->group(group);
   app.add_option("--detail", o.detail, "Split every triangle into four so often (default: as the colours need)")
       ->type_name("N")
@@ -199,7 +203,9 @@ void add_output_options(CLI::App& app, GrowOptions& o) {
            if (axis == axes.end()) throw CLI::ValidationError("--up", unknown_name("axis", name, {"y", "z"}));
            o.up = axis->second;
          },
-         "Which axis of the shape points up in the picture: y (default) or z")
+         "Which axis of the shape points up, y or z, in pictures and in GLB, which is turned for it (default: what the "
+         "file "
+         "says, otherwise y)")
       ->type_name("AXIS")
       ->group(group);
   app.add_flag("--profile", o.profile, "Print where the time went")->group(group);
@@ -335,7 +341,10 @@ void apply(const GrowOptions& o, Look& look) {
   override(o.ramp, look.ramp);
   look.invert |= o.invert;
   look.keep_shape |= o.keep_shape;
+  look.flat |= o.flat;
   override(o.detail, look.detail);
+  if (look.keep_shape && look.detail.value_or(0) > 0)
+    throw Error(Fault::usage, "--keep-shape splits nothing: leave --detail out, or take --flat instead");
 }
 
 void refuse_input_as_output(const std::string& output, const std::string& shape) {

@@ -25,12 +25,12 @@ struct GrowOptions {
   std::string fair;  ///< method of fairing, or empty
   std::optional<std::string> motion;
   bool profile = false;
-  bool interpolate = false, invert = false, keep_shape = false;
+  bool interpolate = false, invert = false, keep_shape = false, flat = false;
 
   std::vector<std::string> outputs;
   std::string picture, panels, checkpoint, resume;
   int picture_size = 1024;
-  UpAxis up = UpAxis::y;
+  std::optional<UpAxis> up;  ///< given, or else what the file says
   bool json = false, quiet = false;
 };
 

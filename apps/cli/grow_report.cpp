@@ -47,7 +47,7 @@ std::string status_name(RunStatus status) {
 
 std::string meshing(const Method& method, int levels) {
   if (method.own_mesh) return "even triangles on the surface";
-  const bool smooth = method.limit_masks != nullptr;
+  const bool smooth = method.smooth;
   if (levels == 0) return "as it is";
   return "every triangle split into " + std::to_string(1L << (2 * levels)) +
          (smooth ? " by Loop's rules" : " at midpoints");
@@ -114,6 +114,17 @@ void GrowReport::pattern(const Run& run) {
   json_["vertices_per_wavelength"] = density;
 }
 
+void GrowReport::coarseness(const Run& run) {
+  constexpr double fewest = 4;  // edges per wavelength below which spots lose their form
+  const TriangleMesh& shape = *run.program().shape;
+  const double edge = prevailing_edge(shape.triangles, shape.points);
+  for (const StageProgram& p : run.program().stages) {
+    if (p.size >= fewest * edge) continue;
+    return warning("the shape's edges of " + brief(edge) + " are too long to show a pattern of " + brief(p.size) +
+                   " at its vertices; --flat instead of --keep-shape splits its triangles");
+  }
+}
+
 void GrowReport::surface(const MovingSurface& surface) {
   const Fairing* fairing = surface.fairing();
   if (!fairing) return;
@@ -123,6 +134,12 @@ void GrowReport::surface(const MovingSurface& surface) {
   if (!fairing->done()) warning("the growth ended before the noise was off the surface; lower --every or grow longer");
   json_["fairing"] = {
       {"noise_edges", r.noise}, {"steps", r.steps}, {"moved_edges", r.moved}, {"done", fairing->done()}};
+}
+
+void GrowReport::estimate(const Run& run, double seconds) {
+  line("growing",
+       "takes about " + duration(seconds) + " for " + counted(run.world().topology().vertex_count, "vertex"));
+  json_["estimated_growth_seconds"] = seconds;
 }
 
 void GrowReport::growth(const Run& run, double seconds) {
@@ -135,6 +152,7 @@ void GrowReport::growth(const Run& run, double seconds) {
 }
 
 void GrowReport::grown(const Run& run, std::size_t stage, const RunSummary& s) {
+  bytes_ += s.bytes;
   const StageProgram& p = run.program().stages[stage];
   line("grown", (run.program().stages.size() > 1 ? p.name + ": " : "") +
                     counted(static_cast<std::size_t>(s.steps), "step") + " of " + std::string(p.stepper->name) +
@@ -158,12 +176,21 @@ void GrowReport::file(const std::string& path) {
 }
 
 void GrowReport::profile(Profile& profile) {
-  double total = 0;
-  for (const Profile::Phase& p : profile.phases()) total += p.seconds;
+  double total = 0, growing = 0;
+  for (const Profile::Phase& p : profile.phases()) {
+    total += p.seconds;
+    if (p.name == "growing") growing = p.seconds;
+  }
   for (const Profile::Phase& p : profile.phases()) {
     line("profile", p.name + ": " + duration(p.seconds) + ", " + brief(100 * p.seconds / total) + " %");
     json_["profile"]["seconds"][p.name] = p.seconds;
   }
+  if (!(bytes_ > 0) || !(growing > 0)) return;
+  const double speed = bytes_ / growing, triad = triad_speed();
+  line("profile", "growing moved " + brief(bytes_ / 1e9) + " GB, " + brief(speed / 1e9) +
+                      " GB/s; a stream of floats goes at " + brief(triad / 1e9) + " GB/s");
+  json_["profile"]["kernel_bytes_per_second"] = speed;
+  json_["profile"]["triad_bytes_per_second"] = triad;
 }
 
 void GrowReport::end(double seconds) {

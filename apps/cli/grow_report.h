@@ -21,6 +21,10 @@ class GrowReport {
   /// Those that the run did not give before.
   void warnings(const Run& run);
   void pattern(const Run& run);
+  /// Warns of a shape whose vertices alone cannot show the pattern.
+  void coarseness(const Run& run);
+  /// `seconds`: of the whole growth.
+  void estimate(const Run& run, double seconds);
   void surface(const MovingSurface& surface);
   void growth(const Run& run, double seconds);
   void file(const std::string& path);
@@ -35,6 +39,7 @@ class GrowReport {
   ProgressBar& bar_;
   Json json_ = Json::object();
   std::size_t warnings_of_run_ = 0;
+  double bytes_ = 0;  ///< that the growth moved
 };
 
 }  // namespace pelage

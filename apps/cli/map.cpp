@@ -112,7 +112,7 @@ ContactSheet make_sheet(const MapOptions& options, const MapRequest& request, co
   Look look;
   look.species = {request.model.species[request.species].name, {}};
   look.ramp = {options.ramp, {}};
-  look.keep_shape = true;
+  look.flat = true;
   look.detail = 1;  // triangles of two or three pixels
   ContactSheet sheet;
   sheet.title = options.model;

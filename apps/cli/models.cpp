@@ -225,7 +225,8 @@ Json to_json(const Entry& e) {
            {{"step", json_number(source.suggestions.step)},
             {"end", json_number(source.suggestions.end)},
             {"tolerance", json_number(source.suggestions.tolerance)},
-            {"resolution", source.suggestions.resolution_or_default()}}}};
+            {"resolution", source.suggestions.resolution_or_default()},
+            {"iterations", json_number(source.suggestions.iterations)}}}};
 }
 
 struct ModelsOptions {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/parallel.h"
+
 namespace pelage {
 
 namespace {
@@ -11,6 +13,21 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 }
 
 }  // namespace
+
+double triad_speed() {
+  constexpr std::size_t size = 1 << 24;
+  constexpr int rounds = 4;
+  std::vector<float> a(size), b(size, 1), c(size, 2);
+  double best = 0;
+  for (int round = 0; round < rounds; ++round) {
+    const auto begin = std::chrono::steady_clock::now();
+    parallel_for(size, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) a[i] = b[i] + 3 * c[i];
+    });
+    best = std::max(best, 3.0 * sizeof(float) * size / seconds_since(begin));
+  }
+  return best;
+}
 
 Progress Profile::measured(Progress progress) {
   return [this, progress = std::move(progress)](std::string_view task, double fraction) {

@@ -10,6 +10,9 @@
 
 namespace pelage {
 
+/// Bytes per second of a = b + 3 c on all threads, over arrays that no cache holds.
+double triad_speed();
+
 class Profile {
  public:
   struct Phase {

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <sstream>
+
+#include "shape/generators.h"
 
 namespace pelage {
 
@@ -57,6 +60,12 @@ std::string wrapped(const std::string& text, std::size_t indent, std::size_t wid
     line += (line.empty() ? "" : " ") + word;
   }
   return result + margin + line + "\n";
+}
+
+std::string object_name(const std::string& shape) {
+  if (!is_builtin_shape(shape)) return std::filesystem::path(shape).stem().string();
+  const std::string name = shape.substr(shape.find(':') + 1);
+  return name.substr(0, name.find('?'));
 }
 
 }  // namespace pelage

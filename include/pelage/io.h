@@ -3,8 +3,10 @@
 //
 //   pelage::save(pelage::load_shape("cow.obj"), "cow.glb");
 //
-// The extension picks the format; capitals count as small letters. Coordinates are never turned, scaled or moved.
+// The extension picks the format; capitals count as small letters. Coordinates are never scaled or moved, and turned
+// only on the way into formats that prescribe which axis points up.
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,13 +14,17 @@
 #include "pelage/error.h"
 #include "pelage/finding.h"
 #include "pelage/image.h"
-#include "pelage/triangle_mesh.h"
+#include "pelage/polygon_mesh.h"
+#include "pelage/up_axis.h"
 
 namespace pelage {
 
 struct ShapeFile {
   TriangleMesh mesh;              ///< checked, repaired, polygons cut into triangles
   std::vector<Finding> findings;  ///< what was found in the file and what was done about it
+  UpAxis up = UpAxis::y;          ///< z where the file says that it comes from Blender
+  /// What the file itself has, for as_in_file(); nullptr for built-in shapes and meshes of your own.
+  std::shared_ptr<const SourceShape> source = nullptr;
 };
 
 /// Reads OBJ, PLY, STL, OFF, glTF and GLB, or makes a "builtin:NAME?parameters", and repairs what is safe to repair.
@@ -39,14 +45,29 @@ ShapeFile check_shape(TriangleMesh mesh);
 /// The extensions of shapes that can be read, with the dot: ".obj", ...
 std::vector<std::string> readable_extensions();
 
+struct SaveOptions {
+  std::string name = "mesh";  ///< of the object, in formats that name it
+  UpAxis up = UpAxis::y;      ///< the mesh's axis that points up: GLB prescribes y, the others take the mesh as it is
+};
+
 /// Writes a mesh as .glb, .ply, .obj, .vtp, .stl or .off, with all its attributes that the format can hold. Every
 /// format is a single file, which appears whole or not at all.
 /// Errors: Fault::usage for an unknown extension; Fault::numerics for a value that is not finite or does not fit a
 /// 32-bit float, naming attribute and vertex; Fault::output when the file cannot be written.
-void save(const TriangleMesh& mesh, const std::string& path);
+void save(const TriangleMesh& mesh, const std::string& path, const SaveOptions& options = {});
+
+/// The same for a mesh in the form of its file: faces stay as they are and vertices are not split, where the format can
+/// do that. With as_in_file() a mesh so goes back to the form that it came in.
+void save(const PolygonMesh& mesh, const std::string& path, const SaveOptions& options = {});
+
+/// What files of that extension cannot hold of a mesh, or hold with fewer digits: a line for people each, empty when
+/// all is kept. Error(Fault::usage) for an unknown extension.
+std::vector<std::string> losses(const TriangleMesh& mesh, const std::string& extension);
+std::vector<std::string> losses(const PolygonMesh& mesh, const std::string& extension);
 
 /// The bytes of that file; `extension` with the dot. Errors as above but for the last.
-std::string mesh_bytes(const TriangleMesh& mesh, const std::string& extension);
+std::string mesh_bytes(const TriangleMesh& mesh, const std::string& extension, const SaveOptions& options = {});
+std::string mesh_bytes(const PolygonMesh& mesh, const std::string& extension, const SaveOptions& options = {});
 
 /// The extensions of meshes that can be written, with the dot.
 std::vector<std::string> mesh_extensions();

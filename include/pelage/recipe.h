@@ -115,7 +115,8 @@ struct Look {
   Given<std::string> ramp{"tawny", {}};
   bool invert = false;        ///< exchange the ends of the ramp
   std::vector<Layer> layers;  ///< painted over it, the first one lowest
-  bool keep_shape = false;    ///< the input's flat triangles instead of the limit surface
+  bool keep_shape = false;    ///< the input as it is: its own vertices and flat triangles, never split
+  bool flat = false;          ///< the input's flat triangles instead of the limit surface, split as the detail says
   std::optional<int> detail;  ///< extra splits of every triangle into four, 0 to most_detail; default: as needed
 };
 

@@ -16,16 +16,40 @@ using Triangle = std::array<std::int32_t, 3>;  ///< three vertex numbers, counte
 /// Where the values of an attribute sit.
 enum class Domain {
   vertex,  ///< one tuple per vertex
-  corner   ///< one tuple per corner: tuple 3*f+k belongs to corner k of triangle f (uv with seams)
+  corner,  ///< one tuple per corner: tuple 3*f+k belongs to corner k of triangle f (uv with seams)
+  face     ///< one tuple per triangle
 };
 
+/// How files hold a number. Every value of these types is exactly a double.
+enum class NumberType { float32, float64, int8, uint8, int16, uint16, int32, uint32 };
+
+/// "float32", "int8", ...
+const char* name_of(NumberType type);
+inline bool is_integer(NumberType type) { return type > NumberType::float64; }
+
 /// Named values over a mesh, tuple after tuple. Conventional names:
-/// "normal" (3 components, unit length), "color" (3 or 4, linear light, 0..1), "uv" (2, v upwards).
+/// "normal" (3 components, unit length), "color" (3 or 4, linear light, 0..1), "uv" (2, v upwards);
+/// per face "object", "group" and "material" (1, with labels).
 struct Attribute {
   std::string name;
   int components = 1;
   Domain domain = Domain::vertex;
-  std::vector<double> values;  ///< components * (number of vertices or corners)
+  std::vector<double> values;             ///< components * (number of vertices, corners or faces)
+  NumberType type = NumberType::float32;  ///< of the file that it comes from, and of those that it goes to
+  std::vector<std::string> labels = {};   ///< names of the values 0, 1, ..., or empty
+};
+
+/// Whether the values are colours, which files hold encoded: "color" itself, "face_color" and "corner_color"
+/// beside it, "material_color", and the "input_color" of a coat.
+bool is_color(const Attribute& attribute);
+
+/// After interpolation: integers between which there is something now are doubles.
+void widen(Attribute& attribute);
+
+/// A file that a mesh names, as it names it.
+struct FileLink {
+  std::string kind;  ///< "mtllib" of OBJ, "TextureFile" of PLY
+  std::string file;
 };
 
 /// Vertices, triangles and named attributes; says nothing about unknowns.
@@ -34,6 +58,7 @@ struct TriangleMesh {
   std::vector<Point> points;
   std::vector<Triangle> triangles;
   std::vector<Attribute> attributes;
+  std::vector<FileLink> links = {};
 
   /// The attribute of that name, or nullptr.
   const Attribute* find(std::string_view name) const;

@@ -49,6 +49,18 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   return nearest ? "did you mean \"" + *nearest + "\"?" : "";
 }
 
+const std::string* matching_name(std::string_view word, const std::vector<std::string>& known) {
+  const std::string* match = nullptr;
+  int matches = 0;
+  for (const std::string& name : known) {
+    if (name == word) return &name;
+    if (name.size() != word.size() || edit_distance(name, word) > 0) continue;
+    match = &name;
+    ++matches;
+  }
+  return matches == 1 ? match : nullptr;
+}
+
 std::string join_names(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;

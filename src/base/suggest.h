@@ -15,6 +15,10 @@ int edit_distance(std::string_view a, std::string_view b);
 /// or "" when no name is near enough to be a likely slip of the fingers.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known);
 
+/// The known name that equals `word`, or else the only one that differs from it in upper and lower case alone; nullptr
+/// if there is none.
+const std::string* matching_name(std::string_view word, const std::vector<std::string>& known);
+
 /// "a, b, c": for messages that list the known names.
 std::string join_names(const std::vector<std::string>& names);
 

@@ -33,6 +33,8 @@ class LinearBasis final : public ElementBasis {
 SparseMatrix identity(Index n) {
   auto pattern = std::make_shared<SparsePattern>();
   pattern->rows = pattern->columns = n;
+  pattern->column.reserve(static_cast<std::size_t>(n));
+  pattern->start.reserve(static_cast<std::size_t>(n) + 1);
   for (Index i = 0; i < n; ++i) {
     pattern->column.push_back(i);
     pattern->start.push_back(i + 1);
@@ -49,10 +51,10 @@ Discretisation linear_discretisation(std::shared_ptr<const Topology> shared) {
   d.nodal = true;
   d.classes.push_back(linear_element());
   d.element_class.assign(topology.triangles.size(), 0);
-  for (std::size_t f = 0; f <= topology.triangles.size(); ++f) {
-    d.first_function.push_back(static_cast<std::int64_t>(3 * f));
-    d.first_point.push_back(static_cast<std::int64_t>(3 * f));
-  }
+  d.first_function.resize(topology.triangles.size() + 1);
+  for (std::size_t f = 0; f <= topology.triangles.size(); ++f) d.first_function[f] = static_cast<std::int64_t>(3 * f);
+  d.first_point = d.first_function;
+  d.function.reserve(3 * topology.triangles.size());
   for (const Triangle& t : topology.triangles) d.function.insert(d.function.end(), t.begin(), t.end());
   d.values = identity(d.unknowns);
   d.basis = std::make_shared<const LinearBasis>();
@@ -85,7 +87,7 @@ std::shared_ptr<const Space> remeshed_space(std::shared_ptr<const Topology> topo
 constexpr Method remeshed_method = {.name = "remeshed",
                                     .summary = "fast, default",
                                     .refine = loop_refine,
-                                    .limit_masks = loop_limit_masks,
+                                    .smooth = true,
                                     .interpolate = loop_interpolation,
                                     .make_space = remeshed_space,
                                     .own_mesh = true,
@@ -97,7 +99,7 @@ constexpr Method remeshed_method = {.name = "remeshed",
 constexpr Method linear_method = {.name = "linear",
                                   .summary = "on the flat triangles of the shape",
                                   .refine = midpoint_refine,
-                                  .limit_masks = nullptr,
+                                  .smooth = false,
                                   .interpolate = nullptr,
                                   .make_space = linear_space,
                                   .own_mesh = false,

@@ -160,7 +160,7 @@ std::vector<Point> loop_interpolation(const Topology& topology, const std::vecto
 constexpr Method loop_method = {.name = "loop",
                                 .summary = "smooth, for small errors",
                                 .refine = loop_refine,
-                                .limit_masks = loop_limit_masks,
+                                .smooth = true,
                                 .interpolate = loop_interpolation,
                                 .make_space = loop_space,
                                 .own_mesh = false,

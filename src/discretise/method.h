@@ -12,9 +12,9 @@ namespace pelage {
 
 struct Method {
   std::string_view name;
-  std::string_view summary;                    ///< some words
-  Hierarchy::Rule refine;                      ///< of control points and coefficients, from level to level
-  LimitMasks (*limit_masks)(const Topology&);  ///< of both at the vertices; null: the surface goes through them
+  std::string_view summary;  ///< some words
+  Hierarchy::Rule refine;    ///< of control points and coefficients, from level to level
+  bool smooth;               ///< the surface is the limit of Loop's subdivision, else it goes through its points
   std::vector<Point> (*interpolate)(
       const Topology& topology,
       const std::vector<Point>& points);  ///< control points

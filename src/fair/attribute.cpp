@@ -192,6 +192,7 @@ SmoothedAttribute smooth_attribute(const TriangleMesh& mesh, const std::string& 
     ++report.steps;
   }
   attribute.values = interleaved(field);
+  widen(attribute);
   result.mesh.set(std::move(attribute));
   return result;
 }

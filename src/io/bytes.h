@@ -3,8 +3,11 @@
 
 #include <bit>
 #include <charconv>
+#include <cstdint>
 #include <cstring>
 #include <string>
+
+#include "pelage/triangle_mesh.h"
 
 namespace pelage {
 
@@ -16,6 +19,28 @@ void append_bytes(std::string& bytes, T value) {
   char raw[sizeof(T)];
   std::memcpy(raw, &value, sizeof(T));
   bytes.append(raw, sizeof(T));
+}
+
+/// Appends a value of an attribute as the file has it; it must be one of the type.
+inline void append_number(std::string& bytes, NumberType type, double value) {
+  switch (type) {
+    case NumberType::float32:
+      return append_bytes(bytes, static_cast<float>(value));
+    case NumberType::float64:
+      return append_bytes(bytes, value);
+    case NumberType::int8:
+      return append_bytes(bytes, static_cast<std::int8_t>(value));
+    case NumberType::uint8:
+      return append_bytes(bytes, static_cast<std::uint8_t>(value));
+    case NumberType::int16:
+      return append_bytes(bytes, static_cast<std::int16_t>(value));
+    case NumberType::uint16:
+      return append_bytes(bytes, static_cast<std::uint16_t>(value));
+    case NumberType::int32:
+      return append_bytes(bytes, static_cast<std::int32_t>(value));
+    case NumberType::uint32:
+      return append_bytes(bytes, static_cast<std::uint32_t>(value));
+  }
 }
 
 /// Appends the shortest decimal text that reads back as the same number.

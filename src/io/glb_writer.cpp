@@ -7,10 +7,13 @@
 #include <cstring>
 #include <limits>
 #include <locale>
+#include <map>
 #include <sstream>
 
 #include "base/ascii.h"
+#include "base/box.h"
 #include "base/random.h"
+#include "io/gltf_document.h"
 #include "pelage/error.h"
 #include "shape/split_corners.h"
 
@@ -43,13 +46,13 @@ int add_floats(tinygltf::Model& model, const std::vector<float>& values, int com
   return add_array(model, values, components, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TARGET_ARRAY_BUFFER);
 }
 
-int add_positions(tinygltf::Model& model, const std::vector<Point>& points) {
+int add_positions(tinygltf::Model& model, const std::vector<Point>& points, const Point& origin) {
   std::vector<float> values;
   values.reserve(3 * points.size());
   std::vector<double> low(3, std::numeric_limits<float>::max()), high(3, std::numeric_limits<float>::lowest());
   for (const Point& p : points) {
     for (std::size_t k = 0; k < 3; ++k) {
-      values.push_back(static_cast<float>(p[k]));
+      values.push_back(static_cast<float>(p[k] - origin[k]));
       low[k] = std::min<double>(low[k], values.back());
       high[k] = std::max<double>(high[k], values.back());
     }
@@ -108,14 +111,28 @@ void add_custom(tinygltf::Model& model, tinygltf::Primitive& primitive, const At
   }
 }
 
+/// "TEXCOORD_1" for "uv1", if there is a TEXCOORD_0, as glTF asks; "" otherwise.
+std::string further_set(const std::string& name, const char* ours, const char* theirs,
+                        const tinygltf::Primitive& primitive) {
+  for (int n = 1; primitive.attributes.count(theirs + std::to_string(n - 1)) != 0; ++n)
+    if (name == ours + std::to_string(n)) return theirs + std::to_string(n);
+  return "";
+}
+
 void add_attribute(tinygltf::Model& model, tinygltf::Primitive& primitive, const Attribute& attribute) {
   const int n = attribute.components;
+  const std::string uv = further_set(attribute.name, "uv", "TEXCOORD_", primitive);
+  const std::string color = further_set(attribute.name, "color", "COLOR_", primitive);
   if (attribute.name == "normal" && n == 3)
     primitive.attributes["NORMAL"] = add_normals(model, attribute);
   else if (attribute.name == "color" && (n == 3 || n == 4))
     primitive.attributes["COLOR_0"] = add_colors(model, attribute);
   else if (attribute.name == "uv" && n == 2)
     primitive.attributes["TEXCOORD_0"] = add_uv(model, attribute);
+  else if (!uv.empty() && n == 2)
+    primitive.attributes[uv] = add_uv(model, attribute);
+  else if (!color.empty() && (n == 3 || n == 4))
+    primitive.attributes[color] = add_colors(model, attribute);
   else
     add_custom(model, primitive, attribute);
 }
@@ -140,9 +157,46 @@ bool is_closed(const std::vector<Triangle>& triangles) {
   return difference == 0;
 }
 
-tinygltf::Material coat_material(bool double_sided) {
+// --- where and how it stands ------------------------------------------------------------------------------
+
+bool is_vector(const Attribute& a) {
+  std::string name = a.name;
+  for (char& c : name) c = to_lower(c);
+  return a.components == 3 && (name == "normal" || name == "tangent" || name == "direction");
+}
+
+/// A quarter turn around x: what pointed along z points along y.
+void stand_up(TriangleMesh& mesh) {
+  const auto turn = [](double* v) {
+    const double y = v[1];
+    v[1] = v[2];
+    v[2] = -y;
+  };
+  for (Point& p : mesh.points) turn(p.data());
+  for (Attribute& a : mesh.attributes)
+    for (std::size_t i = 0; is_vector(a) && i < a.values.size(); i += 3) turn(a.values.data() + i);
+}
+
+/// The middle of the points if they are so far away that floats would lose more than a millionth of their extent.
+Point origin_of(const std::vector<Point>& points) {
+  Point origin{};
+  const Box box = box_of(points);
+  double furthest = 0;
+  for (const Point& p : points)
+    for (double x : p) furthest = std::max(furthest, std::abs(x));
+  constexpr double rounding = 1.0 / (1 << 24), tolerance = 1e-6;
+  if (furthest * rounding <= tolerance * box.diagonal()) return origin;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double middle = (box.low[k] + box.high[k]) / 2;
+    origin[k] = static_cast<float>(middle);  // the same number in programs that compute with floats
+    if (std::abs(origin[k] - middle) > box.diagonal()) origin[k] = middle;
+  }
+  return origin;
+}
+
+tinygltf::Material coat_material(const std::string& name, bool double_sided) {
   tinygltf::Material material;
-  material.name = "coat";
+  material.name = name;
   material.pbrMetallicRoughness.metallicFactor = 0;
   material.pbrMetallicRoughness.roughnessFactor = 0.8;  // short hair: a broad, faint highlight
   material.doubleSided = double_sided;
@@ -159,31 +213,130 @@ std::string to_bytes(const tinygltf::Model& model) {
   return std::move(stream).str();
 }
 
+/// A vertex has one colour, so that faces of different colours need vertices of their own.
+TriangleMesh with_colors_at_corners(TriangleMesh mesh) {
+  Attribute* color = mesh.find("color");
+  if (!color || color->domain != Domain::face) return mesh;
+  const auto n = static_cast<std::ptrdiff_t>(color->components);
+  std::vector<double> values;
+  values.reserve(3 * color->values.size());
+  for (auto face = color->values.begin(); face != color->values.end(); face += n)
+    for (int corner = 0; corner < 3; ++corner) values.insert(values.end(), face, face + n);
+  color->values = std::move(values);
+  color->domain = Domain::corner;
+  return mesh;
+}
+
+/// The attribute that tells groups of faces apart, or nullptr.
+const Attribute* labels(const TriangleMesh& mesh, const char* name) {
+  const Attribute* a = mesh.find(name);
+  return a && a->domain == Domain::face && a->components == 1 && !a->labels.empty() ? a : nullptr;
+}
+
+/// The faces of every label that there are, in the order of the labels; without labels all of them.
+std::map<std::size_t, std::vector<std::size_t>> faces_by_label(const Attribute* a, std::size_t count) {
+  std::map<std::size_t, std::vector<std::size_t>> faces;
+  for (std::size_t f = 0; f < count; ++f) {
+    const double x = a ? a->values[f] : 0;
+    faces[a && x >= 0 && x < static_cast<double>(a->labels.size()) ? static_cast<std::size_t>(x) : 0].push_back(f);
+  }
+  return faces;
+}
+
+std::string label_of(const Attribute* a, std::size_t i, const std::string& otherwise) {
+  return a && !a->labels[i].empty() ? a->labels[i] : otherwise;
+}
+
+/// These faces with their vertices and attributes. `number` is -1 for all vertices, and so again afterwards.
+TriangleMesh extract(const TriangleMesh& mesh, const std::vector<std::size_t>& faces,
+                     std::vector<std::int32_t>& number) {
+  TriangleMesh part;
+  std::vector<std::size_t> vertices, corners;
+  for (const std::size_t f : faces) {
+    Triangle t = mesh.triangles[f];
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners.push_back(3 * f + k);
+      std::int32_t& n = number[static_cast<std::size_t>(t[k])];
+      if (n < 0) {
+        n = static_cast<std::int32_t>(vertices.size());
+        vertices.push_back(static_cast<std::size_t>(t[k]));
+      }
+      t[k] = n;
+    }
+    part.triangles.push_back(t);
+  }
+  for (const std::size_t v : vertices) {
+    part.points.push_back(mesh.points[v]);
+    number[v] = -1;
+  }
+  for (const Attribute& a : mesh.attributes) {
+    Attribute taken = a;
+    taken.values.clear();
+    const auto& tuples = a.domain == Domain::vertex ? vertices : a.domain == Domain::corner ? corners : faces;
+    for (const std::size_t i : tuples)
+      for (std::size_t k = 0; k < static_cast<std::size_t>(a.components); ++k)
+        taken.values.push_back(a.values[i * static_cast<std::size_t>(a.components) + k]);
+    part.attributes.push_back(std::move(taken));
+  }
+  return part;
+}
+
+/// Adds a mesh, and the node in which it stands.
+void add_object(tinygltf::Model& model, const TriangleMesh& original, const std::string& name, const Point& origin) {
+  const Attribute* material = labels(original, "material");
+  const TriangleMesh mesh = split_corners(with_colors_at_corners(original));
+  tinygltf::Primitive primitive;
+  primitive.mode = TINYGLTF_MODE_TRIANGLES;
+  primitive.attributes["POSITION"] = add_positions(model, mesh.points, origin);
+  for (const Attribute& attribute : mesh.attributes)
+    if (attribute.domain == Domain::vertex) add_attribute(model, primitive, attribute);
+  tinygltf::Mesh object;
+  object.name = as_utf8(name);
+  for (const auto& [label, faces] : faces_by_label(material, mesh.triangles.size())) {
+    std::vector<Triangle> triangles;
+    for (const std::size_t f : faces) triangles.push_back(mesh.triangles[f]);
+    primitive.indices = add_indices(model, triangles);
+    primitive.material = static_cast<int>(label);
+    object.primitives.push_back(primitive);
+  }
+  tinygltf::Node node;
+  node.mesh = static_cast<int>(model.meshes.size());
+  node.name = object.name;
+  if (origin != Point{}) node.translation = {origin[0], origin[1], origin[2]};
+  model.scenes[0].nodes.push_back(static_cast<int>(model.nodes.size()));
+  model.meshes.push_back(std::move(object));
+  model.nodes.push_back(std::move(node));
+}
+
+void add_materials(tinygltf::Model& model, const TriangleMesh& mesh) {
+  const Attribute* material = labels(mesh, "material");
+  const bool closed = is_closed(mesh.triangles);
+  for (std::size_t i = 0; i < (material ? material->labels.size() : 1); ++i)
+    model.materials.push_back(coat_material(as_utf8(label_of(material, i, "coat")), !closed));
+}
+
 }  // namespace
 
-std::string encode_glb(const TriangleMesh& original) {
+std::string encode_glb(const TriangleMesh& original, const GlbOptions& options) {
   if (original.triangles.empty()) throw Error(Fault::output, "a GLB file needs at least one triangle");
-  const TriangleMesh mesh = split_corners(original);
+  TriangleMesh mesh = original;
+  if (options.up == UpAxis::z) stand_up(mesh);
+  const Point origin = origin_of(mesh.points);
   tinygltf::Model model;
   model.asset.generator = "pelage";
   model.buffers.resize(1);
-  tinygltf::Primitive primitive;
-  primitive.mode = TINYGLTF_MODE_TRIANGLES;
-  primitive.material = 0;
-  primitive.attributes["POSITION"] = add_positions(model, mesh.points);
-  for (const Attribute& attribute : mesh.attributes) add_attribute(model, primitive, attribute);
-  primitive.indices = add_indices(model, mesh.triangles);
+  model.scenes.resize(1);
+  model.defaultScene = 0;
+  add_materials(model, mesh);
+  const Attribute* object = labels(mesh, "object");
+  const auto objects = faces_by_label(object, mesh.triangles.size());
+  std::vector<std::int32_t> number(mesh.points.size(), -1);
+  for (const auto& [label, faces] : objects)
+    add_object(model, objects.size() > 1 ? extract(mesh, faces, number) : mesh,
+               objects.size() > 1 ? label_of(object, label, options.name) : options.name, origin);
   constexpr std::size_t room_for_json = 1 << 20;
   if (model.buffers[0].data.size() > std::numeric_limits<std::uint32_t>::max() - room_for_json)
     throw Error(Fault::output, "a GLB file holds at most 4 GiB; write PLY instead");
-  model.materials = {coat_material(!is_closed(original.triangles))};
-  model.meshes.resize(1);
-  model.meshes[0].primitives = {primitive};
-  model.nodes.resize(1);
-  model.nodes[0].mesh = 0;
-  model.scenes.resize(1);
-  model.scenes[0].nodes = {0};
-  model.defaultScene = 0;
   return to_bytes(model);
 }
 

@@ -29,12 +29,49 @@ class OffReader {
                                  "the header promises " + std::to_string(face_count_) + " faces, but line " +
                                      std::to_string(text_.line()) + " holds more; skipped",
                                  1, static_cast<std::size_t>(text_.line()), false});
-    if (layout_.color) shape_.mesh.attributes.push_back(linear_color(std::move(colors_), color_components_));
+    if (layout_.normal) shape_.mesh.attributes.push_back({"normal", 3, Domain::vertex, std::move(normals_)});
+    if (layout_.color) shape_.mesh.attributes.push_back(opaque(std::move(colors_), color_components_, Domain::vertex));
     if (layout_.uv) shape_.mesh.attributes.push_back({"uv", 2, Domain::vertex, std::move(uv_)});
+    add_face_colors();
+    if (longer_ > 0)
+      shape_.findings.push_back({"left-out",
+                                 counted(longer_, "vertex") + " with more values than the word in front of the file "
+                                                              "announces (COFF for colours); left out",
+                                 longer_, 0, false});
     return std::move(shape_);
   }
 
  private:
+  Attribute opaque(std::vector<double> values, int components, Domain domain) {
+    Attribute color = linear_color(std::move(values), components, shape_.findings, NumberType::float32, domain);
+    drop_opaque_alpha(color);
+    return color;
+  }
+
+  /// White where a face has none.
+  void add_face_colors() {
+    if (indexed_ > 0)
+      shape_.findings.push_back({"left-out",
+                                 counted(indexed_, "face") + " with the number of a colour in a list that is not in "
+                                                             "the file; left out",
+                                 indexed_, 0, false});
+    if (colored_faces_.empty()) return;
+    const std::size_t faces = shape_.mesh.face_count();
+    if (colored_faces_.size() < faces)
+      shape_.findings.push_back({"faces-without-colour",
+                                 counted(faces - colored_faces_.size(), "face") + " without a colour; white there",
+                                 faces - colored_faces_.size(), 0, false});
+    const Attribute some = opaque(std::move(face_colors_), 4, Domain::face);
+    Attribute all = some;
+    all.type = NumberType::uint8;
+    if (layout_.color) all.name = "face_color";
+    all.values.assign(faces * some.components, 1.0);
+    for (std::size_t i = 0; i < colored_faces_.size(); ++i)
+      std::copy_n(some.values.begin() + static_cast<std::ptrdiff_t>(i) * some.components, some.components,
+                  all.values.begin() + static_cast<std::ptrdiff_t>(colored_faces_[i]) * some.components);
+    shape_.mesh.attributes.push_back(std::move(all));
+  }
+
   void read_header() {
     if (text_.at_end()) text_.fail("the file holds nothing");
     TextScanner ahead = text_;
@@ -112,13 +149,15 @@ class OffReader {
     Point p;
     for (double& x : p) x = next_number("a coordinate");
     shape_.mesh.points.push_back(p);
-    for (int k = 0; layout_.normal && k < 3; ++k) next_number("a normal");
+    for (int k = 0; layout_.normal && k < 3; ++k) normals_.push_back(next_number("a normal"));
     if (layout_.color) {
       if (v == 0) color_components_ = count_color_components();
       for (int k = 0; k < color_components_; ++k) colors_.push_back(next_number("a colour"));
     }
     for (int k = 0; layout_.uv && k < 2; ++k) uv_.push_back(next_number("a texture coordinate"));
-    if (!packed_) text_.skip_line();
+    if (packed_) return;
+    longer_ += !text_.at_line_end();
+    text_.skip_line();
   }
 
   /// The format asks for four, many programs write three: the first line tells.
@@ -146,7 +185,26 @@ class OffReader {
       shape_.mesh.corners.push_back(static_cast<std::int32_t>(v));
     }
     shape_.mesh.end_face();
-    if (!packed_) text_.skip_line();
+    if (packed_) return;
+    read_face_color(static_cast<std::size_t>(f));
+    text_.skip_line();
+  }
+
+  /// Nothing, the number of a colour in a list, or three or four values, behind the corners of a face. Three are
+  /// completed by an alpha as bright as white.
+  void read_face_color(std::size_t f) {
+    std::vector<double> values;
+    bool whole = true;
+    while (!text_.at_line_end() && values.size() < 4) {
+      const std::string_view word = text_.word();
+      whole = whole && word.find('.') == std::string_view::npos;
+      values.push_back(text_.number(word, "a colour"));
+    }
+    if (values.size() == 1) ++indexed_;
+    if (values.size() < 3) return;
+    if (values.size() == 3) values.push_back(whole ? 255 : 1);
+    for (double& x : values) face_colors_.push_back(whole ? x / 255 : x);
+    colored_faces_.push_back(f);
   }
 
   TextScanner text_;
@@ -155,7 +213,10 @@ class OffReader {
   std::int64_t vertex_count_ = 0, face_count_ = 0;
   bool packed_ = false;  // several elements stand on a line
   int color_components_ = 4;
-  std::vector<double> colors_, uv_;
+  std::vector<double> colors_, uv_, normals_;
+  std::vector<std::size_t> colored_faces_;  // those that have a colour
+  std::vector<double> face_colors_;         // r g b a of these, 0..1
+  std::size_t indexed_ = 0, longer_ = 0;
 };
 
 }  // namespace

@@ -10,18 +10,18 @@ namespace pelage {
 
 namespace {
 
-std::optional<PlyType> type_named(std::string_view name) {
+std::optional<NumberType> type_named(std::string_view name) {
   struct Row {
     std::string_view name;
-    PlyType type;
+    NumberType type;
   };
   static constexpr Row rows[] = {
-      {"char", PlyType::int8},       {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
-      {"uint8", PlyType::uint8},     {"short", PlyType::int16},     {"int16", PlyType::int16},
-      {"ushort", PlyType::uint16},   {"uint16", PlyType::uint16},   {"int", PlyType::int32},
-      {"int32", PlyType::int32},     {"uint", PlyType::uint32},     {"uint32", PlyType::uint32},
-      {"float", PlyType::float32},   {"float32", PlyType::float32}, {"double", PlyType::float64},
-      {"float64", PlyType::float64},
+      {"char", NumberType::int8},       {"int8", NumberType::int8},       {"uchar", NumberType::uint8},
+      {"uint8", NumberType::uint8},     {"short", NumberType::int16},     {"int16", NumberType::int16},
+      {"ushort", NumberType::uint16},   {"uint16", NumberType::uint16},   {"int", NumberType::int32},
+      {"int32", NumberType::int32},     {"uint", NumberType::uint32},     {"uint32", NumberType::uint32},
+      {"float", NumberType::float32},   {"float32", NumberType::float32}, {"double", NumberType::float64},
+      {"float64", NumberType::float64},
   };
   for (const Row& row : rows)
     if (row.name == name) return row.type;
@@ -44,19 +44,31 @@ class HeaderReader {
         read_element();
       else if (keyword == "property")
         read_property();
-      else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info")
+      else if (keyword == "comment")
+        header_.comments.emplace_back(text_.rest_of_line());
+      else if (!keyword.empty() && keyword != "obj_info")
         text_.fail("unknown word " + in_quotes(keyword) + " in the header (is the end_header line missing?)");
       text_.skip_line();
     }
-    text_.skip_line();
+    end_last_line();
     if (!format) text_.fail("the header has no format line; the file is damaged");
-    header_.size = bytes_.size() - text_.rest().size();
+    if (header_.size == 0) header_.size = place();
     header_.lines = text_.line() - 1;
     check_counts();
     return std::move(header_);
   }
 
  private:
+  std::size_t place() const { return static_cast<std::size_t>(text_.rest().data() - bytes_.data()); }
+
+  /// Where lines end in \r alone, a \n behind the last one is the first byte of the data.
+  void end_last_line() {
+    const std::size_t end = place();
+    const bool bare = end < bytes_.size() && bytes_[end] == '\r' && bytes_.find('\n') >= end;
+    text_.skip_line();
+    if (bare) header_.size = end + 1;
+  }
+
   bool read_format() {
     const std::string_view name = text_.word(), version = text_.word();
     if (name == "ascii")
@@ -82,9 +94,9 @@ class HeaderReader {
     header_.elements.push_back(std::move(element));
   }
 
-  PlyType read_type() {
+  NumberType read_type() {
     const std::string_view name = text_.word();
-    const std::optional<PlyType> type = type_named(name);
+    const std::optional<NumberType> type = type_named(name);
     if (!type) text_.fail("unknown type " + in_quotes(name) + " of a property");
     return *type;
   }
@@ -97,11 +109,11 @@ class HeaderReader {
       text_.word();
       property.list = true;
       property.count_type = read_type();
-      if (property.count_type == PlyType::float32 || property.count_type == PlyType::float64)
+      if (property.count_type == NumberType::float32 || property.count_type == NumberType::float64)
         text_.fail("the length of a list must be an integer");
     }
     property.type = read_type();
-    property.name = text_.word();
+    property.name = text_.rest_of_line();
     if (property.name.empty()) text_.fail("a property without a name");
     header_.elements.back().properties.push_back(std::move(property));
   }
@@ -135,8 +147,8 @@ class HeaderReader {
 
 }  // namespace
 
-std::size_t size_of(PlyType type) {
-  static constexpr std::size_t sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+std::size_t size_of(NumberType type) {
+  static constexpr std::size_t sizes[] = {4, 8, 1, 1, 2, 2, 4, 4};
   return sizes[static_cast<int>(type)];
 }
 

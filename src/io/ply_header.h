@@ -7,19 +7,20 @@
 #include <string_view>
 #include <vector>
 
+#include "pelage/triangle_mesh.h"
+
 namespace pelage {
 
 enum class PlyFormat { ascii, little_endian, big_endian };
-enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 /// Bytes of a value.
-std::size_t size_of(PlyType type);
+std::size_t size_of(NumberType type);
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::float32;
+  NumberType type = NumberType::float32;
   bool list = false;
-  PlyType count_type = PlyType::uint8;  ///< of a list's length
+  NumberType count_type = NumberType::uint8;  ///< of a list's length
 };
 
 struct PlyElement {
@@ -35,7 +36,8 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;
-  std::size_t size = 0;  ///< bytes up to the data
+  std::vector<std::string> comments;  ///< texts behind "comment"
+  std::size_t size = 0;               ///< bytes up to the data
   int lines = 0;
 };
 

@@ -8,9 +8,9 @@
 #include <limits>
 #include <utility>
 
-#include "base/srgb.h"
 #include "io/ply_header.h"
 #include "io/text_scanner.h"
+#include "io/vertex_colors.h"
 
 namespace pelage {
 
@@ -23,7 +23,7 @@ class AsciiSource {
       : text_(bytes.substr(header.size), path, header.lines + 1) {}
 
   bool begin_element() { return !text_.at_end(); }
-  double value(PlyType) {
+  double value(NumberType) {
     if (text_.at_line_end()) text_.at_end();  // some programs break long lists into lines
     return text_.number("a number");
   }
@@ -49,23 +49,23 @@ class BinarySource {
         swap_((header.format == PlyFormat::big_endian) != (std::endian::native == std::endian::big)) {}
 
   bool begin_element() const { return true; }
-  double value(PlyType type) {
+  double value(NumberType type) {
     switch (type) {
-      case PlyType::int8:
+      case NumberType::int8:
         return take<std::int8_t>();
-      case PlyType::uint8:
+      case NumberType::uint8:
         return take<std::uint8_t>();
-      case PlyType::int16:
+      case NumberType::int16:
         return take<std::int16_t>();
-      case PlyType::uint16:
+      case NumberType::uint16:
         return take<std::uint16_t>();
-      case PlyType::int32:
+      case NumberType::int32:
         return take<std::int32_t>();
-      case PlyType::uint32:
+      case NumberType::uint32:
         return take<std::uint32_t>();
-      case PlyType::float32:
+      case NumberType::float32:
         return take<float>();
-      case PlyType::float64:
+      case NumberType::float64:
         return take<double>();
     }
     return 0;
@@ -101,6 +101,49 @@ int find_indices(const PlyElement& element) {
   return -1;
 }
 
+/// The values of an element's properties, property by property; `lists` where its lists end.
+struct Columns {
+  std::vector<std::vector<double>> values;
+  std::vector<std::vector<std::size_t>> ends;  ///< per list: behind the last value of each element
+};
+
+/// Names that together make one attribute.
+struct Joined {
+  const char* name;
+  std::vector<const char*> properties;
+};
+
+const std::vector<Joined>& joined_properties() {
+  static const std::vector<Joined> all = {{"normal", {"nx", "ny", "nz"}},
+                                          {"color", {"red", "green", "blue", "alpha"}},
+                                          {"color", {"red", "green", "blue"}},
+                                          {"color", {"diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"}},
+                                          {"color", {"diffuse_red", "diffuse_green", "diffuse_blue"}},
+                                          {"color", {"r", "g", "b", "a"}},
+                                          {"color", {"r", "g", "b"}},
+                                          {"uv", {"s", "t"}},
+                                          {"uv", {"u", "v"}},
+                                          {"uv", {"texture_u", "texture_v"}}};
+  return all;
+}
+
+double least_of(NumberType type) {
+  static constexpr double least[] = {0, 0, -128, 0, -32768, 0, -2147483648.0, 0};
+  return least[static_cast<int>(type)];
+}
+double most_of(NumberType type) {
+  static constexpr double most[] = {0, 0, 127, 255, 32767, 65535, 2147483647.0, 4294967295.0};
+  return most[static_cast<int>(type)];
+}
+
+/// Texts can say more than the type that their header promises.
+NumberType type_that_holds(const std::vector<double>& values, NumberType promised) {
+  if (!is_integer(promised)) return promised;
+  const bool fits = std::ranges::all_of(
+      values, [&](double x) { return x == std::floor(x) && x >= least_of(promised) && x <= most_of(promised); });
+  return fits ? promised : NumberType::float64;
+}
+
 template <class Source>
 class PlyReader {
  public:
@@ -122,7 +165,8 @@ class PlyReader {
       }
     }
     if (!vertices) fail("the file has no vertices (no vertex element)", 0);
-    add_corner_uv();
+    drop_incomplete_face_attributes();
+    read_comments();
     if (longer_.count > 0) report_longer_lines();
     return std::move(shape_);
   }
@@ -134,6 +178,10 @@ class PlyReader {
 
   [[noreturn]] void fail_at(const PlyElement& element, std::uint64_t i, const std::string& message) const {
     fail(element.name + " " + std::to_string(i) + ": " + message, source_.line());
+  }
+
+  void note_left_out(const std::string& what, std::size_t count, const std::string& why = "") {
+    shape_.findings.push_back({"left-out", what + (why.empty() ? "" : ": " + why) + "; left out", count, 0, false});
   }
 
   void begin(const PlyElement& element, std::uint64_t i) {
@@ -161,6 +209,8 @@ class PlyReader {
   }
 
   void skip(const PlyElement& element) {
+    if (element.count == 0) return;
+    note_left_out(counted(element.count, "element") + " \"" + element.name + "\"", element.count);
     if (element.properties.empty()) return;
     for (std::uint64_t i = 0; i < element.count; ++i) {
       begin(element, i);
@@ -169,77 +219,94 @@ class PlyReader {
     }
   }
 
+  void read_property(const PlyElement& element, std::size_t k, std::uint64_t i, Columns& columns) {
+    const PlyProperty& property = element.properties[k];
+    const std::uint64_t n = property.list ? length(element, property, i) : 1;
+    for (std::uint64_t j = 0; j < n; ++j) columns.values[k].push_back(source_.value(property.type));
+    if (property.list) columns.ends[k].push_back(columns.values[k].size());
+  }
+
+  static Columns columns_of(const PlyElement& element) {
+    const std::size_t n = element.properties.size();
+    Columns columns{std::vector<std::vector<double>>(n), std::vector<std::vector<std::size_t>>(n)};
+    for (std::size_t k = 0; k < n; ++k)
+      if (!element.properties[k].list) columns.values[k].reserve(element.count);
+    return columns;
+  }
+
   // --- vertices ---
 
   void read_vertices(const PlyElement& element) {
     const std::size_t n = element.properties.size();
-    std::vector<std::vector<double>> columns(n);
+    Columns columns = columns_of(element);
     std::vector<int> axis(n, -1);
     for (const auto& [name, k] : {std::pair{"x", 0}, {"y", 1}, {"z", 2}}) {
       const int i = element.find(name);
       if (i < 0 || element.properties[i].list) fail(std::string("the vertices have no property ") + name, element.line);
       axis[i] = k;
+      columns.values[i] = {};
+      if (element.properties[i].type == NumberType::float64) shape_.mesh.position_type = NumberType::float64;
     }
-    for (std::size_t k = 0; k < n; ++k)
-      if (axis[k] < 0 && !element.properties[k].list) columns[k].reserve(element.count);
     shape_.mesh.points.resize(element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
       begin(element, i);
       if (source_.line() > 0) shape_.vertex_lines.push_back(source_.line());
       for (std::size_t k = 0; k < n; ++k) {
-        const PlyProperty& property = element.properties[k];
         if (axis[k] >= 0)
-          shape_.mesh.points[i][axis[k]] = source_.value(property.type);
-        else if (property.list)
-          skip_property(element, property, i);
+          shape_.mesh.points[i][axis[k]] = source_.value(element.properties[k].type);
         else
-          columns[k].push_back(source_.value(property.type));
+          read_property(element, k, i, columns);
       }
       end();
     }
-    add_vertex_attributes(element, columns);
+    std::vector<char> used(n, 0);
+    for (std::size_t k = 0; k < n; ++k) used[k] = axis[k] >= 0;
+    for (std::size_t k = 0; k < n; ++k)
+      if (element.properties[k].list && element.count > 0)
+        note_left_out("the list \"" + element.properties[k].name + "\" of the vertices", element.count);
+    add_attributes(element, Domain::vertex, columns.values, used);
   }
 
   /// Joins columns to the attributes they make together; the others stay alone.
-  void add_vertex_attributes(const PlyElement& element, std::vector<std::vector<double>>& columns) {
-    std::vector<char> used(columns.size(), 0);
-    for (const char* name : {"x", "y", "z", "nx", "ny", "nz"})
-      if (const int i = element.find(name); i >= 0) used[i] = 1;
-    auto take = [&](const char* name, const std::vector<const char*>& names) {
-      Attribute a{name, static_cast<int>(names.size()), Domain::vertex, {}};
+  void add_attributes(const PlyElement& element, Domain domain, std::vector<std::vector<double>>& columns,
+                      std::vector<char>& used) {
+    std::vector<std::string> made;
+    for (const Joined& joined : joined_properties()) {
       std::vector<int> which;
-      for (const char* property : names) {
-        const int i = element.find(property);
-        if (i < 0 || used[i] || element.properties[i].list) return;
-        which.push_back(i);
-      }
-      a.values.resize(which.size() * element.count);
-      for (std::size_t c = 0; c < which.size(); ++c) {
-        const std::vector<double> column = std::move(columns[which[c]]);
-        used[which[c]] = 1;
-        for (std::size_t v = 0; v < column.size(); ++v)
-          a.values[v * which.size() + c] = decode(a.name, c, element.properties[which[c]].type, column[v]);
-      }
-      shape_.mesh.attributes.push_back(std::move(a));
-    };
-    take("color", {"red", "green", "blue", "alpha"});
-    take("color", {"red", "green", "blue"});
-    for (const auto& [u, v] : {std::pair{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}})
-      if (!has("uv")) take("uv", {u, v});
-    for (std::size_t k = 0; k < columns.size(); ++k)
-      if (!used[k] && !element.properties[k].list && !has(element.properties[k].name))
-        shape_.mesh.attributes.push_back({element.properties[k].name, 1, Domain::vertex, std::move(columns[k])});
+      for (const char* property : joined.properties)
+        if (const int i = element.find(property); i >= 0 && !used[i] && !element.properties[i].list) which.push_back(i);
+      if (which.size() != joined.properties.size() || std::ranges::count(made, joined.name) > 0) continue;
+      made.emplace_back(joined.name);
+      add(interleaved(joined.name, domain, element, columns, which));
+      for (const int i : which) used[i] = 1;
+    }
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const PlyProperty& property = element.properties[k];
+      if (used[k] || property.list) continue;
+      const NumberType type = type_that_holds(columns[k], property.type);
+      add({property.name, 1, domain, std::move(columns[k]), type});
+    }
   }
 
-  bool has(const std::string& name) const {
-    return std::any_of(shape_.mesh.attributes.begin(), shape_.mesh.attributes.end(),
-                       [&](const Attribute& a) { return a.name == name; });
+  Attribute interleaved(const std::string& name, Domain domain, const PlyElement& element,
+                        std::vector<std::vector<double>>& columns, const std::vector<int>& which) {
+    const std::size_t n = which.size();
+    Attribute a{name, static_cast<int>(n), domain, std::vector<double>(n * element.count),
+                element.properties[which[0]].type};
+    for (std::size_t c = 0; c < n; ++c) {
+      const std::vector<double> column = std::move(columns[which[c]]);
+      for (std::size_t i = 0; i < column.size(); ++i) a.values[i * n + c] = column[i];
+    }
+    if (name != "color") return a;
+    return linear_color(std::move(a.values), a.components, shape_.findings, a.type, domain);
   }
 
-  static double decode(const std::string& name, std::size_t component, PlyType type, double value) {
-    if (name != "color" || type == PlyType::float32 || type == PlyType::float64) return value;
-    const double most = size_of(type) == 1 ? 255 : 65535;
-    return component == 3 ? value / most : linear_from_srgb(value / most);
+  /// Under a name of its own: "face_id" where the vertices have "id", too.
+  void add(Attribute a) {
+    if (shape_.mesh.find(a.name) && a.domain != Domain::vertex)
+      a.name = (a.domain == Domain::face ? "face_" : "corner_") + a.name;
+    while (shape_.mesh.find(a.name)) a.name += '_';
+    shape_.mesh.attributes.push_back(std::move(a));
   }
 
   // --- faces ---
@@ -252,33 +319,64 @@ class PlyReader {
   }
 
   void read_faces(const PlyElement& element) {
-    const int indices = find_indices(element), texcoord = element.find("texcoord");
+    const int indices = find_indices(element);
     if (indices < 0 && element.count > 0) fail("the faces have no list vertex_indices", element.line);
-    shape_.mesh.face_ends.reserve(element.count);
+    shape_.mesh.face_ends.reserve(shape_.mesh.face_count() + element.count);
+    Columns columns = columns_of(element);
+    const std::size_t first = shape_.mesh.face_count();
     for (std::uint64_t i = 0; i < element.count; ++i) {
       begin(element, i);
       if (source_.line() > 0) shape_.face_lines.push_back(source_.line());
       for (int k = 0; k < static_cast<int>(element.properties.size()); ++k) {
         const PlyProperty& property = element.properties[k];
-        if (k == indices) {
-          const std::uint64_t n = length(element, property, i);
-          for (std::uint64_t c = 0; c < n; ++c) shape_.mesh.corners.push_back(index(element, property, i));
-        } else if (k == texcoord && property.list) {
-          const std::uint64_t n = length(element, property, i);
-          for (std::uint64_t c = 0; c < n; ++c) corner_uv_.push_back(source_.value(property.type));
-        } else {
-          skip_property(element, property, i);
+        if (k != indices) {
+          read_property(element, static_cast<std::size_t>(k), i, columns);
+          continue;
         }
+        const std::uint64_t n = length(element, property, i);
+        for (std::uint64_t c = 0; c < n; ++c) shape_.mesh.corners.push_back(index(element, property, i));
       }
       shape_.mesh.end_face();
       end();
     }
+    std::vector<char> used(element.properties.size(), 0);
+    for (std::size_t k = 0; k < used.size(); ++k)
+      if (element.properties[k].list && static_cast<int>(k) != indices && element.count > 0)
+        add_list(element, element.properties[k], columns.values[k], columns.ends[k], first);
+    add_attributes(element, Domain::face, columns.values, used);
   }
 
-  void add_corner_uv() {
-    if (corner_uv_.empty() || corner_uv_.size() != 2 * shape_.mesh.corners.size()) return;
-    std::erase_if(shape_.mesh.attributes, [](const Attribute& a) { return a.name == "uv"; });
-    shape_.mesh.attributes.push_back({"uv", 2, Domain::corner, std::move(corner_uv_)});
+  /// Lists with as many values as their faces have corners, or a multiple of that, belong to the corners.
+  void add_list(const PlyElement& element, const PlyProperty& property, std::vector<double>& values,
+                const std::vector<std::size_t>& ends, std::size_t first) {
+    const std::size_t corners = shape_.mesh.corners.size() - (first ? shape_.mesh.face_ends[first - 1] : 0);
+    const std::size_t components = corners ? values.size() / corners : 0;
+    bool fits = components > 0 && components <= 16;
+    for (std::size_t f = 0; f < ends.size(); ++f)
+      fits = fits && ends[f] - (f ? ends[f - 1] : 0) == components * shape_.mesh.face_size(first + f);
+    const bool uv = property.name == "texcoord" && components == 2;
+    if (!fits || (property.name == "texcoord" && !uv))
+      return note_left_out("the list \"" + property.name + "\" of the faces", element.count,
+                           "its lengths are not those of the corners");
+    Attribute a{property.name, static_cast<int>(components), Domain::corner, std::move(values),
+                type_that_holds(values, property.type)};
+    if (is_color(a))
+      a = linear_color(std::move(a.values), a.components, shape_.findings, property.type, Domain::corner);
+    if (!uv) return add(std::move(a));
+    if (std::erase_if(shape_.mesh.attributes, [](const Attribute& old) { return old.name == "uv"; }))
+      note_left_out("the uv of the vertices", shape_.mesh.points.size(), "the corners have their own");
+    a.name = "uv";
+    shape_.mesh.attributes.push_back(std::move(a));
+  }
+
+  /// Triangles of strips bring no values.
+  void drop_incomplete_face_attributes() {
+    std::erase_if(shape_.mesh.attributes, [&](const Attribute& a) {
+      const std::size_t tuples = a.domain == Domain::face ? shape_.mesh.face_count() : shape_.mesh.corners.size();
+      const bool incomplete = a.domain != Domain::vertex && a.values.size() != tuples * a.components;
+      if (incomplete) note_left_out("the property \"" + a.name + "\" of the faces", 1, "the strips have none");
+      return incomplete;
+    });
   }
 
   /// Every vertex of a strip but the first two makes a triangle with the two before it; every second one is
@@ -286,6 +384,9 @@ class PlyReader {
   void read_strips(const PlyElement& element) {
     const int indices = find_indices(element);
     if (indices < 0 && element.count > 0) fail("the tristrips have no list vertex_indices", element.line);
+    for (int k = 0; k < static_cast<int>(element.properties.size()) && element.count > 0; ++k)
+      if (k != indices)
+        note_left_out("the property \"" + element.properties[k].name + "\" of the strips", element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
       begin(element, i);
       for (int k = 0; k < static_cast<int>(element.properties.size()); ++k) {
@@ -319,6 +420,26 @@ class PlyReader {
     }
   }
 
+  // --- the rest ---
+
+  /// "TextureFile skin.png" as MeshLab writes it, "label material 0 Fur" as this program does.
+  void read_comments() {
+    for (const std::string& comment : header_.comments) {
+      TextScanner text(comment, path_);
+      const std::string_view keyword = text.word();
+      if (keyword == "TextureFile") shape_.mesh.links.push_back({"TextureFile", std::string(text.rest_of_line())});
+      if (keyword == "label") read_label(text);
+    }
+  }
+
+  void read_label(TextScanner& text) {
+    Attribute* a = shape_.mesh.find(text.word());
+    if (!a || a->components != 1 || text.at_line_end()) return;
+    const std::string number(text.word());
+    if (number != std::to_string(a->labels.size())) return;
+    a->labels.emplace_back(text.rest_of_line());
+  }
+
   void report_longer_lines() {
     longer_.text = counted(longer_.count, "line") + " with more values than the header says (first: line " +
                    std::to_string(longer_.element) + "); the values behind are skipped";
@@ -329,7 +450,6 @@ class PlyReader {
   const std::string& path_;
   const PlyHeader& header_;
   RawShape shape_;
-  std::vector<double> corner_uv_;
   Finding longer_{"longer-lines", "", 0, 0, true};
 };
 

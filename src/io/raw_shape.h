@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "pelage/up_axis.h"
 #include "shape/finding.h"
 #include "shape/triangulate.h"
 
@@ -16,6 +17,7 @@ struct RawShape {
   std::vector<int> vertex_lines;  ///< per vertex: line of the file, from 1; empty for binary files
   std::vector<int> face_lines;    ///< per face: likewise
   std::vector<Finding> findings;
+  UpAxis up = UpAxis::y;  ///< as the file says
 };
 
 }  // namespace pelage

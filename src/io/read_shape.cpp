@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <filesystem>
+#include <memory>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -10,6 +12,7 @@
 #include "io/off_reader.h"
 #include "io/ply_reader.h"
 #include "io/stl_reader.h"
+#include "io/text_scanner.h"
 #include "pelage/io.h"
 #include "shape/generators.h"
 #include "shape/repair.h"
@@ -45,6 +48,7 @@ void check_content(const Format& format, std::string_view bytes, const std::stri
   for (const Format& other : formats)
     if (other.magic && other.read != format.read && bytes.starts_with(other.magic))
       throw Error(Fault::input, std::string("holds a ") + other.extension + " file; give it that extension", {path});
+  refuse_wide_text(bytes, path);
 }
 
 int line_of(const std::vector<int>& lines, std::size_t index) { return index < lines.size() ? lines[index] : 0; }
@@ -57,15 +61,58 @@ Error located(const ShapeFault& fault, const RawShape& raw, const std::string& p
   return Error(Fault::input, fault.what(), {path, line});
 }
 
+/// Blender writes its name into the head of PLY and STL, and its z axis points up there.
+void guess_up(RawShape& raw, const Format& format, std::string_view bytes) {
+  constexpr std::size_t head = 1000;  // bytes: comments come first
+  if (format.read != read_ply && format.read != read_stl) return;
+  if (bytes.substr(0, head).find("Blender") == std::string_view::npos) return;
+  raw.up = UpAxis::z;
+  raw.findings.push_back({"up-axis", "written by Blender: z points up, --up y if not", 0, 0, false});
+}
+
+RawShape read_raw(const Format& format, std::string_view bytes, const std::string& path) {
+  check_content(format, bytes, path);
+  RawShape raw = format.read(bytes, path);
+  guess_up(raw, format, bytes);
+  return raw;
+}
+
+/// Rides through the repair at the corners, and says afterwards which corner of the file each of them is.
+constexpr const char* file_corner = "corner of the file";
+
+Attribute corner_numbers(std::size_t corners) {
+  Attribute numbers{file_corner, 1, Domain::corner, std::vector<double>(corners)};
+  std::iota(numbers.values.begin(), numbers.values.end(), 0.0);
+  return numbers;
+}
+
+/// For every corner of the file its vertex in the repaired mesh, -1 where its face is gone.
+std::vector<std::int32_t> vertices_of_corners(const TriangleMesh& mesh, std::size_t corners) {
+  std::vector<std::int32_t> vertex(corners, -1);
+  const std::vector<double>& number = mesh.find(file_corner)->values;
+  for (std::size_t c = 0; c < number.size(); ++c)
+    vertex[static_cast<std::size_t>(number[c])] = mesh.triangles[c / 3][c % 3];
+  return vertex;
+}
+
 ShapeFile mended(RawShape raw, const std::string& path) {
   ShapeFile file;
   file.findings = std::move(raw.findings);
+  file.up = raw.up;
+  clear_non_finite_attributes(raw.mesh.attributes, file.findings);
+  auto source = std::make_shared<SourceShape>(SourceShape{raw.mesh, {}});
+  const std::size_t corners = raw.mesh.corners.size();
+  std::erase_if(raw.mesh.attributes, [](const Attribute& a) { return a.name == "normal"; });  // surfaces have their own
+  raw.mesh.attributes.push_back(corner_numbers(corners));
   try {
     Triangulation cut = triangulate(std::move(raw.mesh), file.findings);
     file.mesh = repair(std::move(cut.mesh), file.findings, cut.source_face);
   } catch (const ShapeFault& fault) {
     throw located(fault, raw, path);
   }
+  source->vertex = vertices_of_corners(file.mesh, corners);
+  std::erase_if(file.mesh.attributes, [](const Attribute& a) { return a.name == file_corner; });
+  file.source = std::move(source);
   return file;
 }
 
@@ -73,18 +120,16 @@ ShapeFile mended(RawShape raw, const std::string& path) {
 
 ShapeFile read_shape_bytes(std::string_view bytes, const std::string& name) {
   const Format& format = format_of(name);
-  check_content(format, bytes, name);
-  return mended(format.read(bytes, name), name);
+  return mended(read_raw(format, bytes, name), name);
 }
 
 ShapeFile read_shape(const std::string& path) {
-  if (is_builtin_shape(path)) return {builtin_shape(path), {}};
+  if (is_builtin_shape(path)) return {builtin_shape(path), {}, UpAxis::y, nullptr};
   const Format& format = format_of(path);
   RawShape raw;
   {
     const std::string bytes = read_file(path);  // gone before the mesh is mended: the two together are large
-    check_content(format, bytes, path);
-    raw = format.read(bytes, path);
+    raw = read_raw(format, bytes, path);
   }
   return mended(std::move(raw), path);
 }

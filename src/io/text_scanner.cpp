@@ -1,5 +1,6 @@
 #include "io/text_scanner.h"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 #include <utility>
@@ -9,6 +10,8 @@
 namespace pelage {
 
 namespace {
+
+constexpr char end_of_file = '\x1a';  // of DOS
 
 bool is_newline(char c) { return c == '\n' || c == '\r'; }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
@@ -35,14 +38,22 @@ std::string in_quotes(std::string_view word) {
 TextScanner::TextScanner(std::string_view text, std::string file, int first_line)
     : text_(text), file_(std::move(file)), line_(first_line) {
   if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+  while (text_.size() > at_ && (text_.back() == '\0' || text_.back() == end_of_file)) text_.remove_suffix(1);
+}
+
+/// A backslash continues the line if nothing but blanks follows it there.
+bool TextScanner::at_continuation() const {
+  if (text_[at_] != '\\') return false;
+  std::size_t next = at_ + 1;
+  while (next < text_.size() && is_blank(text_[next])) ++next;
+  return next < text_.size() && is_newline(text_[next]);
 }
 
 void TextScanner::skip_blanks() {
   while (at_ < text_.size()) {
     if (is_blank(text_[at_])) {
       ++at_;
-    } else if (text_[at_] == '\\' && at_ + 1 < text_.size() && is_newline(text_[at_ + 1])) {
-      ++at_;
+    } else if (at_continuation()) {
       skip_line();
     } else {
       return;
@@ -74,8 +85,19 @@ bool TextScanner::at_end() {
 std::string_view TextScanner::word() {
   if (at_line_end()) return {};
   const std::size_t begin = at_;
-  while (at_ < text_.size() && !is_blank(text_[at_]) && !is_newline(text_[at_])) ++at_;
+  while (at_ < text_.size() && !is_blank(text_[at_]) && !is_newline(text_[at_]) && text_[at_] != '#' &&
+         !at_continuation())
+    ++at_;
   return text_.substr(begin, at_ - begin);
+}
+
+std::string_view TextScanner::rest_of_line() {
+  while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
+  const std::size_t begin = at_;
+  while (at_ < text_.size() && !is_newline(text_[at_])) ++at_;
+  std::size_t end = at_;
+  while (end > begin && is_blank(text_[end - 1])) --end;
+  return text_.substr(begin, end - begin);
 }
 
 double TextScanner::number(const char* what) { return number(word(), what); }
@@ -105,6 +127,19 @@ std::int64_t TextScanner::integer(std::string_view word, const char* what) const
   if (code != std::errc() || end != digits.data() + digits.size())
     fail("expected " + std::string(what) + ", found " + in_quotes(word));
   return value;
+}
+
+void refuse_wide_text(std::string_view bytes, const std::string& path) {
+  const bool marked = bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF");
+  constexpr std::size_t looked_at = 16;
+  std::size_t zeros[2] = {0, 0}, letters = 0;
+  for (std::size_t i = 0; i < std::min(looked_at, bytes.size()); ++i) {
+    if (bytes[i] == 0) ++zeros[i % 2];
+    letters += (bytes[i] >= ' ' && bytes[i] <= '~') || is_newline(bytes[i]);
+  }
+  const bool alternating =
+      bytes.size() >= looked_at && letters == looked_at / 2 && (zeros[0] == looked_at / 2 || zeros[1] == looked_at / 2);
+  if (marked || alternating) throw Error(Fault::input, "is UTF-16 text; save it as UTF-8", {path});
 }
 
 void TextScanner::fail(const std::string& message) const { throw Error(Fault::input, message, {file_, line_}); }

@@ -9,7 +9,8 @@ namespace pelage {
 
 /// Steps through a text line by line (LF, CRLF or CR) and word by word (blanks and tabs between them).
 /// `#` starts a comment to the end of the line; a backslash at the end of a line continues it; a UTF-8 byte
-/// order mark in front is skipped. Numbers are read the same in every locale.
+/// order mark in front and the zeros or the ^Z of old programs behind are skipped. Numbers are read the same in every
+/// locale.
 class TextScanner {
  public:
   /// `first_line` is the number of the first line of `text` in the file.
@@ -24,6 +25,8 @@ class TextScanner {
   bool at_end();
   /// The next word of this line; empty at its end.
   std::string_view word();
+  /// All that is left of this line, without blanks around it: a name, in which # is a letter like any other.
+  std::string_view rest_of_line();
   /// What has not been read yet, from the next character on.
   std::string_view rest() const { return text_.substr(at_); }
 
@@ -39,12 +42,16 @@ class TextScanner {
 
  private:
   void skip_blanks();
+  bool at_continuation() const;
 
   std::string_view text_;
   std::string file_;
   std::size_t at_ = 0;
   int line_;
 };
+
+/// Error(Fault::input) for texts of two bytes a letter, told by their mark or by their zeros.
+void refuse_wide_text(std::string_view bytes, const std::string& path);
 
 /// At most 40 printable characters of a word, in quotes, for messages.
 std::string in_quotes(std::string_view word);

@@ -1,21 +1,27 @@
 #include "io/vtp_writer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "base/srgb.h"
 #include "io/bytes.h"
+#include "io/ply_writer.h"
 #include "shape/split_corners.h"
 
 namespace pelage {
 
 namespace {
 
-std::string pack_floats(const std::vector<double>& values) {
+std::string pack(const std::vector<double>& values, NumberType type) {
   std::string bytes;
-  bytes.reserve(sizeof(float) * values.size());
-  for (double value : values) append_bytes(bytes, static_cast<float>(value));
+  for (double value : values) append_number(bytes, type, value);
   return bytes;
+}
+
+const char* vtk_name(NumberType type) {
+  static constexpr const char* names[] = {"Float32", "Float64", "Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32"};
+  return names[static_cast<int>(type)];
 }
 
 std::string escape_xml(const std::string& text) {
@@ -39,57 +45,86 @@ void append_array(std::string& text, const std::string& type, const std::string&
   text += "</DataArray>\n";
 }
 
-std::string pack_rgb(const Attribute& color) {
+std::string pack_color(const Attribute& color) {
   std::string bytes;
-  for (std::size_t i = 0; i < color.values.size(); i += color.components)
-    for (std::size_t k = 0; k < 3; ++k) append_bytes(bytes, srgb_byte(color.values[i + k]));
+  for (std::size_t i = 0; i < color.values.size(); ++i)
+    append_bytes(bytes, i % color.components == 3
+                            ? static_cast<std::uint8_t>(std::lround(255 * std::clamp(color.values[i], 0.0, 1.0)))
+                            : srgb_byte(color.values[i]));
   return bytes;
 }
 
-void append_attribute(std::string& text, const Attribute& attribute) {
-  if (attribute.name == "color" && attribute.components >= 3)
-    append_array(text, "UInt8", "RGB", 3, pack_rgb(attribute));
-  else if (attribute.name == "normal" && attribute.components == 3)
-    append_array(text, "Float32", "Normals", 3, pack_floats(attribute.values));
-  else if (attribute.name == "uv" && attribute.components == 2)
-    append_array(text, "Float32", "TextureCoordinates", 2, pack_floats(attribute.values));
-  else
-    append_array(text, "Float32", attribute.name, attribute.components, pack_floats(attribute.values));
+/// The name by which VTK's programs know it.
+std::string array_name(const Attribute& a) {
+  if (a.name == "color" && is_color(a)) return a.components == 4 ? "RGBA" : "RGB";
+  if (a.name == "normal" && a.components == 3) return "Normals";
+  if (a.name == "uv" && a.components == 2) return "TextureCoordinates";
+  return a.name;
 }
 
-void append_points(std::string& text, const TriangleMesh& mesh) {
+void append_attribute(std::string& text, const Attribute& a) {
+  if (is_color(a))
+    append_array(text, "UInt8", array_name(a), a.components, pack_color(a));
+  else
+    append_array(text, vtk_name(a.type), array_name(a), a.components, pack(a.values, a.type));
+}
+
+void append_attributes(std::string& text, const PolygonMesh& mesh, Domain domain) {
+  for (const Attribute& a : mesh.attributes)
+    if (a.domain == domain) append_attribute(text, a);
+}
+
+void append_points(std::string& text, const PolygonMesh& mesh) {
   std::vector<double> coordinates;
   coordinates.reserve(3 * mesh.points.size());
   for (const Point& p : mesh.points) coordinates.insert(coordinates.end(), p.begin(), p.end());
+  const NumberType type = floats_suffice(mesh.points) ? NumberType::float32 : NumberType::float64;
   text += "<Points>\n";
-  append_array(text, "Float32", "Points", 3, pack_floats(coordinates));
+  append_array(text, vtk_name(type), "Points", 3, pack(coordinates, type));
   text += "</Points>\n";
 }
 
-void append_triangles(std::string& text, const std::vector<Triangle>& triangles) {
+void append_polygons(std::string& text, const PolygonMesh& mesh) {
   std::string corners, ends;
-  for (const Triangle& t : triangles) {
-    for (std::int32_t v : t) append_bytes(corners, v);
-    append_bytes(ends, static_cast<std::int32_t>(corners.size() / sizeof(std::int32_t)));
-  }
+  for (std::int32_t v : mesh.corners) append_bytes(corners, v);
+  for (std::size_t end : mesh.face_ends) append_bytes(ends, static_cast<std::int32_t>(end));
   text += "<Polys>\n";
   append_array(text, "Int32", "connectivity", 1, corners);
   append_array(text, "Int32", "offsets", 1, ends);
   text += "</Polys>\n";
 }
 
-/// Says which arrays are the active ones; three.js needs at least one attribute here.
-std::string point_data_tag(const TriangleMesh& mesh) {
-  std::string tag = "<PointData";
-  if (mesh.find("color")) {
-    tag += " Scalars=\"RGB\"";
-  } else {
-    const auto scalar = std::find_if(mesh.attributes.begin(), mesh.attributes.end(),
-                                     [](const Attribute& attribute) { return attribute.components == 1; });
-    if (scalar != mesh.attributes.end()) tag += " Scalars=\"" + escape_xml(scalar->name) + "\"";
+/// What the numbers of materials, groups and objects mean: arrays of strings, each ended by a 0.
+void append_labels(std::string& text, const PolygonMesh& mesh) {
+  if (std::ranges::all_of(mesh.attributes, [](const Attribute& a) { return a.labels.empty(); })) return;
+  text += "<FieldData>\n";
+  for (const Attribute& a : mesh.attributes) {
+    if (a.labels.empty()) continue;
+    text += "<Array type=\"String\" Name=\"" + escape_xml(a.name) + "_labels\" NumberOfTuples=\"" +
+            std::to_string(a.labels.size()) + "\" format=\"ascii\">";
+    for (const std::string& label : a.labels) {
+      for (unsigned char c : label) text += std::to_string(static_cast<int>(c)) + " ";
+      text += "0 ";
+    }
+    text += "</Array>\n";
   }
-  if (mesh.find("normal")) tag += " Normals=\"Normals\"";
-  if (mesh.find("uv")) tag += " TCoords=\"TextureCoordinates\"";
+  text += "</FieldData>\n";
+}
+
+/// Says which arrays are the active ones; three.js needs at least one attribute here.
+std::string point_data_tag(const PolygonMesh& mesh) {
+  std::string tag = "<PointData";
+  const auto first = [&](auto&& fits) {
+    const auto found = std::ranges::find_if(mesh.attributes,
+                                            [&](const Attribute& a) { return a.domain == Domain::vertex && fits(a); });
+    return found == mesh.attributes.end() ? std::string() : escape_xml(array_name(*found));
+  };
+  const auto named = [&](const char* name) { return first([&](const Attribute& a) { return a.name == name; }); };
+  std::string scalars = named("color");
+  if (scalars.empty()) scalars = first([](const Attribute& a) { return a.components == 1; });
+  if (!scalars.empty()) tag += " Scalars=\"" + scalars + "\"";
+  if (!named("normal").empty()) tag += " Normals=\"Normals\"";
+  if (!named("uv").empty()) tag += " TCoords=\"TextureCoordinates\"";
   return tag + ">\n";
 }
 
@@ -110,19 +145,22 @@ void append_base64(std::string& text, const std::string& bytes) {
   }
 }
 
-std::string encode_vtp(const TriangleMesh& original) {
-  const TriangleMesh mesh = split_corners(original);
+std::string encode_vtp(const PolygonMesh& original) {
+  const PolygonMesh mesh = split_corners(original);
   std::string text =
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n";
+  append_labels(text, mesh);
   text += "<Piece NumberOfPoints=\"" + std::to_string(mesh.points.size()) +
           "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
-          std::to_string(mesh.triangles.size()) + "\">\n";
+          std::to_string(mesh.face_count()) + "\">\n";
   text += point_data_tag(mesh);
-  for (const Attribute& attribute : mesh.attributes) append_attribute(text, attribute);
-  text += "</PointData>\n";
+  append_attributes(text, mesh, Domain::vertex);
+  text += "</PointData>\n<CellData>\n";
+  append_attributes(text, mesh, Domain::face);
+  text += "</CellData>\n";
   append_points(text, mesh);
-  append_triangles(text, mesh.triangles);
+  append_polygons(text, mesh);
   return text + "</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 

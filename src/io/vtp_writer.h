@@ -4,15 +4,15 @@
 
 #include <string>
 
-#include "pelage/triangle_mesh.h"
+#include "pelage/polygon_mesh.h"
 
 namespace pelage {
 
-/// The bytes of a VTP file: Points (Float32: three.js reads no other; PLY and OBJ keep all digits),
-/// Polys, and as point data: Normals (Float32 x 3), RGB (UInt8 x 3, sRGB, from "color"), TextureCoordinates
-/// (Float32 x 2), and every other attribute as Float32 under its own name.
-/// Vertices are split where attributes at corners differ.
-std::string encode_vtp(const TriangleMesh& mesh);
+/// The bytes of a VTP file: Points (Float32, as three.js reads no other; Float64 where that would move a point by more
+/// than 1e-6 of the mesh's size), Polys, and as point and cell data: Normals, RGB or RGBA (UInt8, sRGB, from "color"),
+/// TextureCoordinates, and every other attribute under its own name; but for colours with the type of the attribute.
+/// Labels of NAME are the field data NAME_labels. Vertices are split where attributes at corners differ.
+std::string encode_vtp(const PolygonMesh& mesh);
 
 /// Standard base64 with padding (RFC 4648, section 4), appended to `text`.
 void append_base64(std::string& text, const std::string& bytes);

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "pelage/triangle_mesh.h"
+#include "pelage/polygon_mesh.h"
 
 namespace pelage {
 
@@ -11,8 +11,11 @@ namespace pelage {
 /// asked before the long work whose result goes there.
 void check_mesh_path(const std::string& path);
 
+/// The extension of a file's name, with its dot.
+std::string extension_of(const std::string& path);
+
 /// Error(Fault::numerics) that names the first value of a point or attribute which is not a finite number
-/// within the range of 32-bit floats.
-void require_finite(const TriangleMesh& mesh);
+/// within the range of 32-bit floats; attributes that are doubles need only be finite.
+void require_finite(const PolygonMesh& mesh);
 
 }  // namespace pelage

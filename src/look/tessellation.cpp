@@ -5,6 +5,7 @@
 
 #include "pelage/error.h"
 #include "shape/locate.h"
+#include "shape/loop_subdivision.h"
 #include "shape/normals.h"
 #include "shape/refine.h"
 #include "shape/vectors.h"
@@ -25,9 +26,10 @@ constexpr const char* input_color = "input_color";
 std::vector<Attribute> kept_attributes(std::vector<Attribute> attributes, const std::vector<std::string>& species) {
   std::vector<Attribute> kept;
   for (Attribute& a : attributes) {
-    if (a.name == "normal") continue;             // made anew
-    if (a.name == "color") a.name = input_color;  // makes room for the coat
-    if (std::ranges::count(species, a.name) == 0) kept.push_back(std::move(a));
+    if (a.name == "normal") continue;                  // made anew
+    if (a.name == "uv") a.type = NumberType::float32;  // between corners they are computed
+    rename_input(a, species);
+    kept.push_back(std::move(a));
   }
   return kept;
 }
@@ -67,7 +69,7 @@ VertexAttributes layer_attributes(const std::vector<Texture>& textures, const Te
   std::vector<Attribute> given = t.attributes;
   for (Attribute& a : given)
     if (a.name == input_color) a.name = "color";  // as formulas of stages know it
-  VertexAttributes attributes = scalar_attributes(given);
+  VertexAttributes attributes = scalar_attributes(given, t.triangles, t.samples.size());
   for (const Attribute& uv : given)
     for (const Texture& texture : textures)
       if (uv.name == "uv") attributes.merge(texture_attributes(texture, t.triangles, t.samples.size(), uv));
@@ -81,9 +83,8 @@ class Tessellator {
       : fields_(fields), request_(request), levels_(levels_of(fields, request)) {}
 
   Tessellation make() {
-    if (fields_.method->limit_masks) masks_ = fields_.method->limit_masks(levels_.topology(levels_.finest()));
     Tessellation t;
-    t.triangles = levels_.topology(levels_.finest()).triangles;
+    t.triangles = finest().triangles;
     add_geometry(t);
     find_places(t.samples);
     add_fields(t.samples);
@@ -97,6 +98,7 @@ class Tessellator {
   }
 
  private:
+  const Topology& finest() const { return levels_.topology(levels_.finest()); }
   int run_level() const { return fields_.hierarchy->finest(); }
   std::vector<Point> flat(const std::vector<Point>& points) const {
     return levels_.interpolated(points, 0, levels_.finest());
@@ -110,8 +112,7 @@ class Tessellator {
     if (!fields_.mesh) return;
     const SurfaceWalk mesh(*fields_.mesh->shared_topology(), fields_.space->control());
     places_ =
-        locate(levels_.topology(levels_.finest()),
-               request_.keep_shape ? combine(masks_->position, refined(fields_.control)) : samples.position, mesh);
+        locate(finest(), request_.flat ? loop_limits(finest(), refined(fields_.control)) : samples.position, mesh);
   }
   std::vector<std::vector<double>> on_mesh(const std::vector<std::vector<double>>& at_nodes) const {
     return fields_at(places_, *fields_.mesh->shared_topology(), fields_.space->control(), at_nodes);
@@ -124,18 +125,18 @@ class Tessellator {
     }
     for (const std::vector<double>& coefficients : fields_.coefficients) {
       std::vector<double> field = levels_.refined(coefficients, run_level(), levels_.finest());
-      samples.fields.push_back(masks_ ? combine(masks_->position, field) : std::move(field));
+      samples.fields.push_back(fields_.method->smooth ? loop_limits(finest(), field) : std::move(field));
     }
   }
 
   void add_geometry(Tessellation& t) const {
     CoatSamples& s = t.samples;
     const bool moved = !fields_.initial_control.empty();
-    if (masks_ && !request_.keep_shape) {
+    if (fields_.method->smooth && !request_.flat) {
       const std::vector<Point> control = refined(fields_.control);
-      s.position = combine(masks_->position, control);
-      s.normal = limit_normals(*masks_, control);
-      if (moved) s.drawn_at = combine(masks_->position, refined(fields_.initial_control));
+      s.position = loop_limits(finest(), control);
+      s.normal = loop_limit_normals(finest(), control);
+      if (moved) s.drawn_at = loop_limits(finest(), refined(fields_.initial_control));
     } else {
       s.position = flat(fields_.points);
       s.normal = vertex_normals(t.triangles, s.position);
@@ -158,16 +159,29 @@ class Tessellator {
   const CoatFields& fields_;
   const TessellationRequest& request_;
   const Hierarchy levels_;
-  std::optional<LimitMasks> masks_;
   std::vector<MeshPlace> places_;  ///< of the vertices on the mesh of the fields
 };
 
 }  // namespace
 
+void rename_input(Attribute& a, const std::vector<std::string>& species) {
+  if (a.name != "color" && std::ranges::count(species, a.name) == 0) return;
+  a.name = "input_" + a.name;
+}
+
+TessellationRequest tessellation_request(const Look& look) {
+  if (look.keep_shape && look.detail.value_or(0) > 0)
+    throw Error(Fault::usage, "a shape that is kept is not split: leave the detail out, or take flat instead");
+  return {look.keep_shape || look.flat, look.keep_shape ? 0 : look.detail};
+}
+
 TessellationRequest tessellation_request(const Look& look, const Paint& paint) {
   const bool curvature =
       std::ranges::any_of(paint.symbols(), [](const Symbol& s) { return s.kind == Symbol::Kind::curvature; });
-  return {look.keep_shape, look.detail, curvature, !paint.layers.empty()};
+  TessellationRequest request = tessellation_request(look);
+  request.curvature = curvature;
+  request.attributes = !paint.layers.empty();
+  return request;
 }
 
 Tessellation tessellate(const CoatFields& fields, const TessellationRequest& request) {

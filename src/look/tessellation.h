@@ -10,12 +10,12 @@ namespace pelage {
 struct Tessellation {
   std::vector<Triangle> triangles;
   CoatSamples samples;                ///< at the vertices
-  std::vector<Attribute> attributes;  ///< of the shape: its "color" is called "input_color"
+  std::vector<Attribute> attributes;  ///< of the shape, renamed where they would be in the way
 };
 
 /// Which tessellation a look asks for.
 struct TessellationRequest {
-  bool keep_shape = false;         ///< the flat triangles of the shape with its vertices first and unmoved, every point
+  bool flat = false;               ///< the flat triangles of the shape with its vertices first and unmoved, every point
                                    ///< with the fields of the surface at the same barycentric coordinates
   std::optional<int> detail = {};  ///< how often every triangle is split into four; default: as the pattern needs
   bool curvature = false;          ///< whether the samples have any
@@ -23,7 +23,12 @@ struct TessellationRequest {
   bool operator==(const TessellationRequest&) const = default;
 };
 
+/// What a look says of the geometry alone, and with what its paint reads.
+TessellationRequest tessellation_request(const Look& look);
 TessellationRequest tessellation_request(const Look& look, const Paint& paint);
+
+/// An attribute of the shape makes room for the coat: "color" and what is called as a species become "input_NAME".
+void rename_input(Attribute& attribute, const std::vector<std::string>& species);
 
 /// Error(Fault::usage) for a detail that needs more than 30 million triangles.
 Tessellation tessellate(const CoatFields& fields, const TessellationRequest& request);

@@ -186,6 +186,7 @@ Look read_look(const Value& table) {
   read_text(table, "ramp", look.ramp);
   if (const Value* v = table.find("invert")) look.invert = v->boolean();
   if (const Value* v = table.find("keep-shape")) look.keep_shape = v->boolean();
+  if (const Value* v = table.find("flat")) look.flat = v->boolean();
   if (const Value* v = table.find("layers"))
     for (const Value& layer : v->items()) look.layers.push_back(read_layer(layer));
   if (const Value* v = table.find("detail")) look.detail = static_cast<int>(whole_number(*v, 0, most_detail));

@@ -2,7 +2,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 #include "shape/remesh.h"
@@ -155,26 +158,69 @@ void add_head(Body& body) {
   }
 }
 
-const Body& the_body() {
-  static const Body body = [] {
-    Body b;
-    add_trunk(b);
-    add_legs(b);
-    add_tail(b);
-    add_head(b);
-    return b;
-  }();
+Body the_body() {
+  Body body;
+  add_trunk(body);
+  add_legs(body);
+  add_tail(body);
+  add_head(body);
   return body;
 }
+
+constexpr Point lower = {-1.3, -0.2, -0.6}, upper = {1.3, 1.7, 0.6};  // a box around it
+
+/// The parts that reach into each of the cells of the box.
+class Cells {
+ public:
+  explicit Cells(const Body& body) : all_(body) {
+    for (std::size_t d = 0; d < 3; ++d) count_[d] = static_cast<std::size_t>(std::ceil((upper[d] - lower[d]) / edge));
+    for (std::size_t i = 0; i < count_[0] * count_[1] * count_[2]; ++i) {
+      const std::size_t x = i % count_[0], y = i / count_[0] % count_[1], z = i / (count_[0] * count_[1]);
+      const Vec corner(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
+      cells_.push_back(near(Vec(lower.data()) + edge * (corner + Vec::Constant(0.5))));
+    }
+  }
+
+  /// In the order of the body; outside the box all of them.
+  const Body& at(const Point& p) const {
+    std::size_t cell = 0;
+    for (std::size_t d = 3; d-- > 0;) {
+      const double x = (p[d] - lower[d]) / edge;
+      if (!(x >= 0 && x < static_cast<double>(count_[d]))) return all_;
+      cell = cell * count_[d] + static_cast<std::size_t>(x);
+    }
+    return cells_[cell];
+  }
+
+ private:
+  static constexpr double edge = 0.1;
+
+  Body near(const Vec& middle) const {
+    const double reach = 0.87 * edge;  // half the diagonal, and a little
+    const auto touches = [&](const auto& part) {
+      return (part.bound.centre - middle).norm() < part.bound.radius + reach;
+    };
+    Body parts;
+    std::ranges::copy_if(all_.rods, std::back_inserter(parts.rods), touches);
+    std::ranges::copy_if(all_.balls, std::back_inserter(parts.balls), touches);
+    return parts;
+  }
+
+  Body all_;
+  std::array<std::size_t, 3> count_;
+  std::vector<Body> cells_;
+};
 
 }  // namespace
 
 FieldValue animal_field(const Point& place) {
+  static const Cells cells(the_body());
   const Vec p(place.data());
   FieldValue sum{0.5, {0, 0, 0}};
-  for (const Rod& rod : the_body().rods)
+  const Body& parts = cells.at(place);
+  for (const Rod& rod : parts.rods)
     if (rod.bound.contains(p)) add_step(distance(rod, p), rod.blend, sum);
-  for (const Ball& ball : the_body().balls)
+  for (const Ball& ball : parts.balls)
     if (ball.bound.contains(p)) add_step(distance(ball, p), ball.blend, sum);
   return sum;
 }
@@ -182,7 +228,7 @@ FieldValue animal_field(const Point& place) {
 TriangleMesh animal(std::size_t vertices) {
   constexpr double spacing = 0.03;  // half the radius of the thinnest part, the tail
   const Field field = animal_field;
-  const TriangleMesh rough = isosurface(field, {-1.3, -0.2, -0.6}, {1.3, 1.7, 0.6}, spacing);
+  const TriangleMesh rough = isosurface(field, lower, upper, spacing);
   return remesh(rough, vertices, [&](const Point& p) { return project_to_surface(field, p, spacing / 2); });
 }
 

@@ -117,6 +117,20 @@ void describe_box(const TriangleMesh& mesh, MeshReport& report) {
   report.diagonal = length(difference(report.high, report.low));
 }
 
+/// "id (1 per vertex, int32)", "material (1 per face): 0 Fur, 1 Glass".
+std::string described(const Attribute& a) {
+  const char* domain = a.domain == Domain::vertex ? "vertex" : a.domain == Domain::corner ? "corner" : "face";
+  std::string text = a.name + " (" + std::to_string(a.components) + " per " + domain;
+  const bool usual = a.type == NumberType::float32 || is_color(a) || a.name == "uv" || !a.labels.empty();
+  if (!usual) text += std::string(", ") + name_of(a.type);
+  text += a.labels.empty() ? ")" : "):";
+  constexpr std::size_t most_labels = 8;
+  for (std::size_t i = 0; i < std::min(a.labels.size(), most_labels); ++i)
+    text += (i ? ", " : " ") + std::to_string(i) + " " + a.labels[i];
+  if (a.labels.size() > most_labels) text += ", and " + std::to_string(a.labels.size() - most_labels) + " more";
+  return text;
+}
+
 }  // namespace
 
 MeshReport describe(const TriangleMesh& mesh, std::vector<Finding> findings) {
@@ -129,9 +143,7 @@ MeshReport describe(const TriangleMesh& mesh, std::vector<Finding> findings) {
   describe_components(mesh, edges, report);
   describe_faces(mesh, report);
   describe_box(mesh, report);
-  for (const Attribute& a : mesh.attributes)
-    report.attributes.push_back(a.name + " (" + std::to_string(a.components) + " per " +
-                                (a.domain == Domain::vertex ? "vertex" : "corner") + ")");
+  for (const Attribute& a : mesh.attributes) report.attributes.push_back(described(a));
   return report;
 }
 

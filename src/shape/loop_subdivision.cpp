@@ -1,7 +1,11 @@
 #include "shape/loop_subdivision.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "base/parallel.h"
+#include "shape/vectors.h"
 
 namespace pelage {
 
@@ -146,19 +150,72 @@ Refinement midpoint_refine(const Topology& t) {
   return fine;
 }
 
+namespace {
+
+void add_tangent_rows(LimitMasks& masks, const Topology& t, Index v, const std::vector<Index>& ring) {
+  const bool boundary = t.on_boundary(v);
+  if (!ring.empty() && boundary) add_boundary_tangents(masks, v, ring);
+  if (!boundary) add_interior_tangents(masks, ring);
+  masks.tangent1.end_row();
+  masks.tangent2.end_row();
+}
+
+/// Values at all vertices, some thousands at a time: of_rows(begin, end) gives those of a range.
+template <class Value, class OfRows>
+std::vector<Value> by_rows(const Topology& t, OfRows&& of_rows) {
+  std::vector<Value> result(static_cast<std::size_t>(t.vertex_count));
+  parallel_for(result.size(), [&](std::size_t begin, std::size_t end) {
+    const std::vector<Value> part = of_rows(static_cast<Index>(begin), static_cast<Index>(end));
+    std::copy(part.begin(), part.end(), result.begin() + static_cast<std::ptrdiff_t>(begin));
+  });
+  return result;
+}
+
+template <class Value>
+std::vector<Value> limits(const Topology& t, const std::vector<Value>& control) {
+  return by_rows<Value>(t, [&](Index begin, Index end) {
+    Stencils rows;
+    std::vector<Index> ring;
+    for (Index v = begin; v < end; ++v) {
+      t.one_ring(v, ring);
+      add_limit_row(rows, v, ring, t.on_boundary(v));
+      rows.end_row();
+    }
+    return combine(rows, control);
+  });
+}
+
+}  // namespace
+
 LimitMasks loop_limit_masks(const Topology& t) {
   LimitMasks masks;
   for (Stencils* s : {&masks.position, &masks.tangent1, &masks.tangent2}) s->columns = t.vertex_count;
   std::vector<Index> ring;
   for (Index v = 0; v < t.vertex_count; ++v) {
     t.one_ring(v, ring);
-    const bool boundary = t.on_boundary(v);
-    add_limit_row(masks.position, v, ring, boundary);
-    if (!ring.empty() && boundary) add_boundary_tangents(masks, v, ring);
-    if (!boundary) add_interior_tangents(masks, ring);
-    for (Stencils* s : {&masks.position, &masks.tangent1, &masks.tangent2}) s->end_row();
+    add_limit_row(masks.position, v, ring, t.on_boundary(v));
+    masks.position.end_row();
+    add_tangent_rows(masks, t, v, ring);
   }
   return masks;
+}
+
+std::vector<double> loop_limits(const Topology& t, const std::vector<double>& control) { return limits(t, control); }
+std::vector<Point> loop_limits(const Topology& t, const std::vector<Point>& control) { return limits(t, control); }
+
+std::vector<Point> loop_limit_normals(const Topology& t, const std::vector<Point>& control) {
+  return by_rows<Point>(t, [&](Index begin, Index end) {
+    LimitMasks rows;
+    std::vector<Index> ring;
+    for (Index v = begin; v < end; ++v) {
+      t.one_ring(v, ring);
+      add_tangent_rows(rows, t, v, ring);
+    }
+    std::vector<Point> normals = combine(rows.tangent1, control);
+    const std::vector<Point> other = combine(rows.tangent2, control);
+    for (std::size_t i = 0; i < normals.size(); ++i) normals[i] = unit(cross(normals[i], other[i]));
+    return normals;
+  });
 }
 
 }  // namespace pelage

@@ -35,4 +35,10 @@ struct LimitMasks {
 };
 LimitMasks loop_limit_masks(const Topology& topology);
 
+/// What the position masks make of control values, and the unit normals that the tangents of control points have (0
+/// where they are parallel): without the memory of the masks.
+std::vector<double> loop_limits(const Topology& topology, const std::vector<double>& control);
+std::vector<Point> loop_limits(const Topology& topology, const std::vector<Point>& control);
+std::vector<Point> loop_limit_normals(const Topology& topology, const std::vector<Point>& control);
+
 }  // namespace pelage

@@ -17,11 +17,4 @@ std::vector<Point> vertex_normals(const std::vector<Triangle>& triangles, const 
   return normals;
 }
 
-std::vector<Point> limit_normals(const LimitMasks& masks, const std::vector<Point>& control) {
-  std::vector<Point> normals = combine(masks.tangent1, control);
-  const std::vector<Point> other = combine(masks.tangent2, control);
-  for (std::size_t i = 0; i < normals.size(); ++i) normals[i] = unit(cross(normals[i], other[i]));
-  return normals;
-}
-
 }  // namespace pelage

@@ -32,7 +32,8 @@ void keep_faces(NumberedMesh& work, const std::vector<char>& keep) {
   gather(work.mesh.triangles, source);
   gather(work.face_number, source);
   for (Attribute& a : work.mesh.attributes)
-    if (a.domain == Domain::corner) gather_tuples(a.values, 3 * static_cast<std::size_t>(a.components), source);
+    if (a.domain != Domain::vertex)
+      gather_tuples(a.values, static_cast<std::size_t>(a.domain == Domain::corner ? 3 : 1) * a.components, source);
 }
 
 void gather_vertices(NumberedMesh& work, const std::vector<std::int32_t>& source) {

@@ -42,6 +42,15 @@ std::vector<double> split_corner_values(const std::vector<double>& values, std::
   return fine;
 }
 
+std::vector<double> split_face_values(const std::vector<double>& values, std::size_t components) {
+  std::vector<double> fine;
+  fine.reserve(4 * values.size());
+  for (auto face = values.begin(); face != values.end(); face += static_cast<std::ptrdiff_t>(components))
+    for (int child = 0; child < 4; ++child)
+      fine.insert(fine.end(), face, face + static_cast<std::ptrdiff_t>(components));
+  return fine;
+}
+
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Calls set(vertex, a, b) for every vertex of the fine mesh, which lies in the middle between a and b of the coarse
@@ -120,8 +129,18 @@ std::vector<Point> split_points(const Topology& coarse, const std::vector<Point>
 
 void split_attribute(const Topology& coarse, Attribute& attribute) {
   const auto components = static_cast<std::size_t>(attribute.components);
-  attribute.values = attribute.domain == Domain::vertex ? split_values(coarse, attribute.values, components)
-                                                        : split_corner_values(attribute.values, components);
+  switch (attribute.domain) {
+    case Domain::vertex:
+      attribute.values = split_values(coarse, attribute.values, components);
+      break;
+    case Domain::corner:
+      attribute.values = split_corner_values(attribute.values, components);
+      break;
+    case Domain::face:
+      attribute.values = split_face_values(attribute.values, components);
+      break;
+  }
+  widen(attribute);
 }
 
 TriangleMesh split_at_midpoints(const TriangleMesh& mesh) {

@@ -21,6 +21,7 @@ MeshPlace in_parent(const MeshPlace& place);
 /// Values at the vertices, `components` for each, linear over the triangles of `coarse`.
 std::vector<double> split_values(const Topology& coarse, const std::vector<double>& values, std::size_t components = 1);
 std::vector<Point> split_points(const Topology& coarse, const std::vector<Point>& points);
+/// Corners likewise; the four parts of a triangle have its values.
 void split_attribute(const Topology& coarse, Attribute& attribute);
 
 /// The mesh so split, with all attributes.

@@ -22,7 +22,8 @@ struct Edge {
   double length;
 };
 
-/// Connectivity, built anew for every pass; a pass changes only places that do not touch each other.
+/// Connectivity, built anew for every pass after one that changed it; a pass changes only places that do not touch each
+/// other.
 class Remesher {
  public:
   explicit Remesher(const TriangleMesh& mesh) : triangles_(mesh.triangles) {
@@ -52,60 +53,83 @@ class Remesher {
   Vec normal(const Triangle& t) const { return (points_[t[1]] - points_[t[0]]).cross(points_[t[2]] - points_[t[0]]); }
   int valence(int v) const { return first_[v + 1] - first_[v]; }
   void gather_corners();
-  std::vector<Edge> edges() const;
+  /// Those for which length_fits(length) and test(edge) hold, by their first corner.
+  template <class LengthFits, class Test>
+  std::vector<Edge> edges_where(LengthFits&& length_fits, Test&& test) const;
   bool adjacent(int a, int b) const;
   int common_neighbours(int a, int b) const;
-  bool may_collapse(const Edge& edge, const Vec& middle, double longest) const;
+  bool may_collapse(const Edge& edge, double longest) const;
+  bool should_flip(const Edge& edge) const;
   bool keeps_normals(int moved, int other, const Vec& target) const;
   int flip_gain(int a, int b, int c, int d) const;
 
   std::vector<Vec> points_;
   std::vector<Triangle> triangles_;
   std::vector<int> first_, corners_;  ///< the corners at vertex v are corners_[first_[v] .. first_[v + 1])
+  std::vector<int> targets_;          ///< of the half-edges there
+  bool gathered_ = false;             ///< are these of the triangles as they are?
 };
 
 void Remesher::gather_corners() {
+  if (gathered_) return;
+  gathered_ = true;
   first_.assign(points_.size() + 1, 0);
   const int count = static_cast<int>(3 * triangles_.size());
   for (int c = 0; c < count; ++c) ++first_[vertex(c) + 1];
   for (std::size_t v = 0; v < points_.size(); ++v) first_[v + 1] += first_[v];
   corners_.resize(count);
+  targets_.resize(count);
   std::vector<int> fill(first_.begin(), first_.end() - 1);
-  for (int c = 0; c < count; ++c) corners_[fill[vertex(c)]++] = c;
+  for (int c = 0; c < count; ++c) {
+    const int place = fill[vertex(c)]++;
+    corners_[place] = c;
+    targets_[place] = vertex(next_halfedge(c));
+  }
 }
 
-std::vector<Edge> Remesher::edges() const {
+template <class LengthFits, class Test>
+std::vector<Edge> Remesher::edges_where(LengthFits&& length_fits, Test&& test) const {
+  const std::size_t corners = 3 * triangles_.size();
+  std::vector<std::vector<Edge>> parts(chunk_count(corners));
+  parallel_for(corners, [&](std::size_t begin, std::size_t end) {
+    for (int c = static_cast<int>(begin); c < static_cast<int>(end); ++c) {
+      const int a = vertex(c), b = vertex(next_halfedge(c));
+      if (a > b) continue;
+      const double length = (points_[a] - points_[b]).norm();
+      if (!length_fits(length)) continue;
+      const auto twin = std::find(targets_.begin() + first_[b], targets_.begin() + first_[b + 1], a);
+      assert(twin != targets_.begin() + first_[b + 1]);
+      const Edge edge{c, corners_[twin - targets_.begin()], length};
+      if (test(edge)) parts[begin / default_chunk].push_back(edge);
+    }
+  });
   std::vector<Edge> edges;
-  for (int c = 0; c < static_cast<int>(3 * triangles_.size()); ++c) {
-    const int a = vertex(c), b = vertex(next_halfedge(c));
-    if (a > b) continue;
-    const auto twin = std::find_if(corners_.begin() + first_[b], corners_.begin() + first_[b + 1],
-                                   [&](int other) { return vertex(next_halfedge(other)) == a; });
-    assert(twin != corners_.begin() + first_[b + 1]);
-    edges.push_back({c, *twin, (points_[a] - points_[b]).norm()});
-  }
+  for (const std::vector<Edge>& part : parts) edges.insert(edges.end(), part.begin(), part.end());
   return edges;
 }
 
 bool Remesher::adjacent(int a, int b) const {
-  return std::any_of(corners_.begin() + first_[a], corners_.begin() + first_[a + 1],
-                     [&](int c) { return vertex(next_halfedge(c)) == b; });
+  const auto end = targets_.begin() + first_[a + 1];
+  return std::find(targets_.begin() + first_[a], end, b) != end;
 }
 
 int Remesher::common_neighbours(int a, int b) const {
-  return static_cast<int>(std::count_if(corners_.begin() + first_[a], corners_.begin() + first_[a + 1],
-                                        [&](int c) { return adjacent(vertex(next_halfedge(c)), b); }));
+  return static_cast<int>(std::count_if(targets_.begin() + first_[a], targets_.begin() + first_[a + 1],
+                                        [&](int v) { return adjacent(v, b); }));
 }
 
 /// Cuts all edges above the limit in the middle; a triangle with one, two or three cuts becomes two, three or four.
 void Remesher::split(double longest) {
   gather_corners();
   std::vector<int> middle(3 * triangles_.size(), -1);
-  for (const Edge& e : edges()) {
-    if (e.length <= longest) continue;
+  const std::size_t before = points_.size();
+  const auto any = [](const Edge&) { return true; };
+  for (const Edge& e : edges_where([&](double length) { return length > longest; }, any)) {
     middle[e.corner] = middle[e.twin] = static_cast<int>(points_.size());
     points_.emplace_back((points_[vertex(e.corner)] + points_[vertex(next_halfedge(e.corner))]) / 2);
   }
+  if (points_.size() == before) return;
+  gathered_ = false;
   std::vector<Triangle> result;
   for (int f = 0; f < static_cast<int>(triangles_.size()); ++f) {
     const int cuts = static_cast<int>(std::count_if(&middle[3 * f], &middle[3 * f] + 3, [](int m) { return m >= 0; }));
@@ -140,22 +164,23 @@ bool Remesher::keeps_normals(int moved, int other, const Vec& target) const {
   return true;
 }
 
-bool Remesher::may_collapse(const Edge& edge, const Vec& middle, double longest) const {
+bool Remesher::may_collapse(const Edge& edge, double longest) const {
   const int a = vertex(edge.corner), b = vertex(edge.twin);
   const int c = vertex(previous_halfedge(edge.corner)), d = vertex(previous_halfedge(edge.twin));
   if (valence(a) + valence(b) - 4 > 8 || valence(c) < 5 || valence(d) < 5) return false;
-  if (common_neighbours(a, b) != 2) return false;  // more: the collapse would pinch the surface
+  const Vec middle = (points_[a] + points_[b]) / 2;
   for (int v : {a, b})
     for (int i = first_[v]; i < first_[v + 1]; ++i)
       if ((points_[vertex(next_halfedge(corners_[i]))] - middle).norm() > longest) return false;
+  if (common_neighbours(a, b) != 2) return false;  // more: the collapse would pinch the surface
   return keeps_normals(a, b, middle) && keeps_normals(b, a, middle);
 }
 
 /// Shrinks edges below the limit to their middle, shortest first, where no edge above `longest` results.
 void Remesher::collapse(double shortest, double longest) {
   gather_corners();
-  std::vector<Edge> candidates = edges();
-  std::erase_if(candidates, [&](const Edge& e) { return e.length >= shortest; });
+  std::vector<Edge> candidates = edges_where([&](double length) { return length < shortest; },
+                                             [&](const Edge& e) { return may_collapse(e, longest); });
   std::sort(candidates.begin(), candidates.end(),
             [](const Edge& p, const Edge& q) { return std::tie(p.length, p.corner) < std::tie(q.length, q.corner); });
   std::vector<char> touched(points_.size(), false);
@@ -163,13 +188,14 @@ void Remesher::collapse(double shortest, double longest) {
   for (std::size_t v = 0; v < name.size(); ++v) name[v] = static_cast<int>(v);
   for (const Edge& e : candidates) {
     const int a = vertex(e.corner), b = vertex(next_halfedge(e.corner));
-    const Vec middle = (points_[a] + points_[b]) / 2;
-    if (touched[a] || touched[b] || !may_collapse(e, middle, longest)) continue;
+    if (touched[a] || touched[b]) continue;
     for (int v : {a, b})
       for (int i = first_[v]; i < first_[v + 1]; ++i) touched[vertex(next_halfedge(corners_[i]))] = true;
-    points_[a] = middle;
+    points_[a] = (points_[a] + points_[b]) / 2;
     name[b] = a;
+    gathered_ = false;
   }
+  if (gathered_) return;
   std::vector<int> number(points_.size(), -1);
   std::vector<Vec> kept;
   for (std::size_t v = 0; v < name.size(); ++v) {
@@ -190,20 +216,27 @@ int Remesher::flip_gain(int a, int b, int c, int d) const {
          defect(d, 1);
 }
 
-/// Turns edges where that brings the valences nearer to 6 and bends no triangle away from the surface.
+/// Does turning it bring the valences nearer to 6 and bend no triangle away from the surface?
+bool Remesher::should_flip(const Edge& e) const {
+  const int a = vertex(e.corner), b = vertex(next_halfedge(e.corner));
+  const int c = vertex(previous_halfedge(e.corner)), d = vertex(previous_halfedge(e.twin));
+  if (flip_gain(a, b, c, d) <= 0 || adjacent(c, d)) return false;
+  const Vec one = normal({a, d, c}), two = normal({d, b, c});
+  const Vec n = normal(triangles_[e.corner / 3]).normalized() + normal(triangles_[e.twin / 3]).normalized();
+  return !(one.dot(n) < one.norm() || two.dot(n) < two.norm());
+}
+
 void Remesher::flip() {
   gather_corners();
   std::vector<char> touched(points_.size(), false);
-  for (const Edge& e : edges()) {
+  const auto any = [](double) { return true; };
+  for (const Edge& e : edges_where(any, [&](const Edge& edge) { return should_flip(edge); })) {
     const int a = vertex(e.corner), b = vertex(next_halfedge(e.corner));
     const int c = vertex(previous_halfedge(e.corner)), d = vertex(previous_halfedge(e.twin));
     if (touched[a] || touched[b] || touched[c] || touched[d]) continue;
-    if (flip_gain(a, b, c, d) <= 0 || adjacent(c, d)) continue;
-    const Triangle one = {a, d, c}, two = {d, b, c};
-    const Vec n = normal(triangles_[e.corner / 3]).normalized() + normal(triangles_[e.twin / 3]).normalized();
-    if (normal(one).dot(n) < normal(one).norm() || normal(two).dot(n) < normal(two).norm()) continue;
-    triangles_[e.corner / 3] = one;
-    triangles_[e.twin / 3] = two;
+    triangles_[e.corner / 3] = {a, d, c};
+    triangles_[e.twin / 3] = {d, b, c};
+    gathered_ = false;
     for (int v : {a, b, c, d}) touched[v] = true;
   }
 }

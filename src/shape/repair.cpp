@@ -10,6 +10,7 @@
 #include "shape/near_copies.h"
 #include "shape/numbered_mesh.h"
 #include "shape/orient.h"
+#include "shape/parts.h"
 #include "shape/stitch.h"
 
 namespace pelage {
@@ -60,20 +61,6 @@ void drop_unused(NumberedMesh& work, std::vector<Finding>& findings) {
        dropped.count, dropped.first, true});
 }
 
-void clear_non_finite_attributes(TriangleMesh& mesh, std::vector<Finding>& findings) {
-  for (Attribute& a : mesh.attributes) {
-    Finding finding{"non-finite-attribute", "", 0, 0, true};
-    for (std::size_t i = 0; i < a.values.size(); ++i) {
-      if (std::isfinite(a.values[i])) continue;
-      if (finding.count++ == 0) finding.element = i / a.components;
-      a.values[i] = 0;
-    }
-    if (finding.count == 0) continue;
-    finding.text = counted(finding.count, "value") + " of attribute \"" + a.name + "\" not finite; set to 0";
-    findings.push_back(finding);
-  }
-}
-
 /// Height over the longest side, relative to it; 0 for collinear corners.
 double flatness(const Point& a, const Point& b, const Point& c) {
   double u[3], v[3], w2 = 0, u2 = 0, v2 = 0;
@@ -118,19 +105,37 @@ NumberedMesh number(TriangleMesh mesh, const std::vector<std::int32_t>& source_f
 
 }  // namespace
 
+void clear_non_finite_attributes(std::vector<Attribute>& attributes, std::vector<Finding>& findings) {
+  for (Attribute& a : attributes) {
+    Finding finding{"non-finite-attribute", "", 0, 0, true};
+    for (std::size_t i = 0; i < a.values.size(); ++i) {
+      if (std::isfinite(a.values[i])) continue;
+      if (finding.count++ == 0) finding.element = i / a.components;
+      a.values[i] = 0;
+    }
+    if (finding.count == 0) continue;
+    finding.text = counted(finding.count, "value") + " of attribute \"" + a.name + "\" not finite; set to 0";
+    findings.push_back(finding);
+  }
+}
+
 TriangleMesh repair(TriangleMesh mesh, std::vector<Finding>& findings, const std::vector<std::int32_t>& source_face) {
   NumberedMesh work = number(std::move(mesh), source_face);
   check_range(work.mesh, work.face_number);
   check_coordinates(work);
   drop_unused(work, findings);
-  clear_non_finite_attributes(work.mesh, findings);
+  clear_non_finite_attributes(work.mesh.attributes, findings);
 
   drop_collapsed_faces(work, findings);
+  separate_closed_parts(work, findings);
   std::vector<std::int32_t> place(work.mesh.points.size());
   std::iota(place.begin(), place.end(), 0);
   drop_duplicate_faces(work, place, findings);
   EdgeTable edges(work.mesh.triangles, work.mesh.points.size());
-  if (std::vector<std::int32_t> open = open_places(work.mesh, edges); open != place) {
+  const std::vector<std::int32_t> part = parts_of(work.mesh);
+  std::vector<std::int32_t> open =
+      part.empty() ? open_places(work.mesh, edges) : open_places_in_parts(work.mesh, edges, part, findings);
+  if (open != place) {
     place = std::move(open);
     drop_duplicate_faces(work, place, findings);
     edges = edges_of_places(work.mesh, place);

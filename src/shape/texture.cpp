@@ -24,13 +24,7 @@ Neighbours neighbours(double x, int count) {
           place - floor};
 }
 
-double luminance(const std::array<double, 3>& c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; }
-
 }  // namespace
-
-std::array<std::string, 4> attribute_names(const std::string& texture) {
-  return {texture, texture + "_1", texture + "_2", texture + "_3"};
-}
 
 std::array<double, 3> color_at(const Texture& texture, double u, double v) {
   const auto [x0, x1, wx] = neighbours(u, texture.width);
@@ -49,26 +43,18 @@ std::array<double, 3> color_at(const Texture& texture, double u, double v) {
 
 VertexAttributes texture_attributes(const Texture& texture, const std::vector<Triangle>& triangles,
                                     std::size_t vertices, const Attribute& uv) {
-  std::vector<std::array<double, 3>> sum(vertices, std::array<double, 3>{});
-  std::vector<double> corners(vertices, 0);
-  for (std::size_t corner = 0; corner < 3 * triangles.size(); ++corner) {
+  const auto rgb = vertex_means<3>(triangles, vertices, [&](std::size_t corner) {
     const auto v = static_cast<std::size_t>(triangles[corner / 3][corner % 3]);
     const double* at = uv.values.data() + 2 * (uv.domain == Domain::corner ? corner : v);
-    const std::array<double, 3> color = color_at(texture, at[0], at[1]);
-    for (std::size_t c = 0; c < 3; ++c) sum[v][c] += color[c];
-    ++corners[v];
-  }
-  std::array<std::vector<double>, 4> values;
-  for (auto& list : values) list.resize(vertices);
-  for (std::size_t v = 0; v < vertices; ++v) {
-    if (corners[v] == 0) continue;
-    for (double& c : sum[v]) c /= corners[v];
-    values[0][v] = luminance(sum[v]);
-    for (std::size_t c = 0; c < 3; ++c) values[c + 1][v] = sum[v][c];
-  }
+    return color_at(texture, at[0], at[1]);
+  });
+  const auto names = color_names(texture.name);
   VertexAttributes result;
-  const auto names = attribute_names(texture.name);
-  for (std::size_t k = 0; k < names.size(); ++k) result[names[k]] = std::move(values[k]);
+  for (const std::string& name : names) result[name].resize(vertices);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const auto values = color_values({rgb[0][v], rgb[1][v], rgb[2][v]});
+    for (std::size_t k = 0; k < names.size(); ++k) result[names[k]][v] = values[k];
+  }
   return result;
 }
 

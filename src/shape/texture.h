@@ -11,7 +11,8 @@
 
 namespace pelage {
 
-/// An image that formulas read. Its numbers are taken as they are stored, without regard to any colour space.
+/// An image that formulas read, by the names of color_names. Its numbers are taken as they are stored, which for
+/// colours is as they were painted.
 struct Texture {
   std::string name;
   int width = 0;
@@ -20,10 +21,6 @@ struct Texture {
   /// two places after it; 65535 stands for 1. Copies of a texture share them.
   std::shared_ptr<const std::vector<std::uint16_t>> rgb;
 };
-
-/// By which formulas know the texture NAME: "NAME", the luminance (Rec. 709), and "NAME_1", "NAME_2", "NAME_3", red,
-/// green and blue.
-std::array<std::string, 4> attribute_names(const std::string& texture);
 
 /// Red, green and blue, 0..1, linear between the centres of pixels. The image reaches from u = v = 0, its lower left
 /// corner, to u = v = 1 and repeats beyond.

@@ -1,6 +1,7 @@
 #include "shape/topology.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 #include "base/parallel.h"
@@ -72,13 +73,26 @@ void pair_halfedges(Topology& t) {
   });
 }
 
+/// In the order of the first half-edge of each.
 void number_edges(Topology& t) {
-  t.edge.assign(t.twin.size(), -1);
-  for (std::size_t h = 0; h < t.twin.size(); ++h) {
-    const Index twin = t.twin[h];
-    const bool first = twin < 0 || static_cast<std::size_t>(twin) > h;
-    t.edge[h] = first ? t.edge_count++ : t.edge[static_cast<std::size_t>(twin)];
-  }
+  const std::size_t halfedges = t.twin.size();
+  const auto first = [&](std::size_t h) { return t.twin[h] < 0 || static_cast<std::size_t>(t.twin[h]) > h; };
+  std::vector<Index> start(chunk_count(halfedges) + 1, 0);
+  parallel_for(halfedges, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t h = begin; h < end; ++h) start[begin / default_chunk + 1] += first(h);
+  });
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  t.edge_count = start.back();
+  t.edge.resize(halfedges);
+  parallel_for(halfedges, [&](std::size_t begin, std::size_t end) {
+    Index next = start[begin / default_chunk];
+    for (std::size_t h = begin; h < end; ++h)
+      if (first(h)) t.edge[h] = next++;
+  });
+  parallel_for(halfedges, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t h = begin; h < end; ++h)
+      if (!first(h)) t.edge[h] = t.edge[static_cast<std::size_t>(t.twin[h])];
+  });
 }
 
 /// Prefers the boundary halfedge, so that a walk counter-clockwise meets the whole fan.
@@ -95,16 +109,19 @@ void check_vertices(const Topology& t) {
   std::vector<Index> corners(static_cast<std::size_t>(t.vertex_count), 0);
   for (const Triangle& triangle : t.triangles)
     for (Index v : triangle) ++corners[static_cast<std::size_t>(v)];
-  for (Index v = 0; v < t.vertex_count; ++v) {
-    const Index start = t.outgoing[static_cast<std::size_t>(v)];
-    Index met = 0;
-    for (Index h = start; h >= 0; h = t.rotate(h)) {
-      ++met;
-      if (t.rotate(h) == start) break;
+  parallel_for(corners.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const Index start = t.outgoing[v];
+      Index met = 0;
+      for (Index h = start; h >= 0; h = t.rotate(h)) {
+        ++met;
+        if (t.rotate(h) == start) break;
+      }
+      if (met != corners[v])
+        throw Error(Fault::input,
+                    "vertex " + std::to_string(v) + " joins several fans of faces; repair the mesh first");
     }
-    if (met != corners[static_cast<std::size_t>(v)])
-      throw Error(Fault::input, "vertex " + std::to_string(v) + " joins several fans of faces; repair the mesh first");
-  }
+  });
 }
 
 }  // namespace
@@ -127,10 +144,14 @@ Topology make_topology(std::size_t vertex_count, std::vector<Triangle> triangles
   t.triangles = std::move(triangles);
   t.twin.assign(3 * t.triangles.size(), -1);
   pair_halfedges(t);
-  number_edges(t);
-  choose_outgoing(t);
+  number_from_twins(t);
   check_vertices(t);
   return t;
+}
+
+void number_from_twins(Topology& t) {
+  number_edges(t);
+  choose_outgoing(t);
 }
 
 Index max_valence(const Topology& topology) {

@@ -41,6 +41,9 @@ struct Topology {
 /// if a vertex is non-manifold.
 Topology make_topology(std::size_t vertex_count, std::vector<Triangle> triangles);
 
+/// Fills edge, edge_count and outgoing from the rest, which must be a manifold: as make_topology does.
+void number_from_twins(Topology& topology);
+
 /// Largest number of edges at a vertex.
 Index max_valence(const Topology& topology);
 

@@ -266,6 +266,16 @@ std::vector<double> pick_corners(const Attribute& attribute, const std::vector<s
   return values;
 }
 
+std::vector<double> pick_faces(const Attribute& attribute, const std::vector<std::int32_t>& faces) {
+  std::vector<double> values;
+  values.reserve(faces.size() * attribute.components);
+  for (const std::int32_t f : faces) {
+    const auto first = attribute.values.begin() + std::ptrdiff_t{f} * attribute.components;
+    values.insert(values.end(), first, first + attribute.components);
+  }
+  return values;
+}
+
 }  // namespace
 
 Triangulation triangulate(PolygonMesh polygons, std::vector<Finding>& findings) {
@@ -295,8 +305,10 @@ Triangulation triangulate(PolygonMesh polygons, std::vector<Finding>& findings) 
     result.mesh.triangles.push_back({polygons.corners[a], polygons.corners[b], polygons.corners[c]});
   for (Attribute& attribute : polygons.attributes) {
     if (attribute.domain == Domain::corner) attribute.values = pick_corners(attribute, cutter.triangles);
+    if (attribute.domain == Domain::face) attribute.values = pick_faces(attribute, result.source_face);
     result.mesh.set(std::move(attribute));
   }
+  result.mesh.links = std::move(polygons.links);
   result.mesh.points = std::move(polygons.points);
   return result;
 }

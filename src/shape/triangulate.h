@@ -5,23 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "pelage/triangle_mesh.h"
+#include "pelage/polygon_mesh.h"
 #include "shape/finding.h"
 
 namespace pelage {
-
-/// A mesh as the files have it: faces with any number of corners, not yet checked.
-struct PolygonMesh {
-  std::vector<Point> points;
-  std::vector<std::int32_t> corners;   ///< vertex numbers of face after face
-  std::vector<std::size_t> face_ends;  ///< face f has the corners from face_ends[f-1] (0 for f = 0) to face_ends[f]
-  std::vector<Attribute> attributes;   ///< Domain::corner: one tuple per entry of `corners`
-
-  std::size_t face_count() const { return face_ends.size(); }
-  std::size_t face_begin(std::size_t f) const { return f == 0 ? 0 : face_ends[f - 1]; }
-  /// Closes the face whose corners were appended to `corners`.
-  void end_face() { face_ends.push_back(corners.size()); }
-};
 
 struct Triangulation {
   TriangleMesh mesh;

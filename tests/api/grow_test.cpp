@@ -102,7 +102,7 @@ TEST(Grow, WhatIsKeptForTheNextLookIsMadeAnewWhenItChanges) {
   Look look;
   look.detail = 1;
   const TriangleMesh fine = growth.dress(look);
-  look.keep_shape = true;
+  look.flat = true;
   const TriangleMesh flat = growth.dress(look);
   EXPECT_GT(fine.points.size(), before.points.size());
   EXPECT_NE(fine.points, flat.points);

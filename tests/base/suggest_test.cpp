@@ -5,6 +5,14 @@
 namespace pelage {
 namespace {
 
+TEST(Suggest, NamesMatchWithoutCaseWhereOneDoes) {
+  const std::vector<std::string> names = {"Heat", "mask", "Mask"};
+  EXPECT_EQ(matching_name("HEAT", names), &names[0]);
+  EXPECT_EQ(matching_name("Mask", names), &names[2]);
+  EXPECT_EQ(matching_name("MASK", names), nullptr);
+  EXPECT_EQ(matching_name("hea", names), nullptr);
+}
+
 TEST(Suggest, DistanceCountsSlips) {
   EXPECT_EQ(edit_distance("turing", "turing"), 0);
   EXPECT_EQ(edit_distance("turing", "Turing"), 0);

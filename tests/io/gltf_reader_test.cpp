@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "io/glb_builder.h"
 #include "io/glb_writer.h"
 #include "io/read_text.h"
 #include "pelage/io.h"
@@ -15,22 +16,8 @@
 namespace pelage {
 namespace {
 
-/// A GLB file of a JSON text and the bytes of its buffer.
-std::string glb(std::string json, std::string data) {
-  while (json.size() % 4) json += ' ';
-  while (data.size() % 4) data += '\0';
-  auto word = [](std::size_t n) {
-    const auto small = static_cast<std::uint32_t>(n);
-    return std::string(reinterpret_cast<const char*>(&small), 4);
-  };
-  return "glTF" + word(2) + word(28 + json.size() + data.size()) + word(json.size()) + "JSON" + json +
-         word(data.size()) + std::string("BIN\0", 4) + data;
-}
-
-template <class T>
-std::string bytes_of(const std::vector<T>& values) {
-  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
-}
+using test::bytes_of;
+using test::glb;
 
 /// Four corners of a square, then 6 bytes of indices (used by some), as buffer views 0 and 1.
 const std::string square =
@@ -137,6 +124,9 @@ TEST(GltfReader, TextFormWithABufferBeside) {
 TEST(GltfReader, SaysWhatIsWrong) {
   auto error = [](const std::string& bytes, const char* part) { test::expect_input_error([&] { read(bytes); }, part); };
   const std::string good = R"({"attributes":{"POSITION":0},"indices":1})";
+  error(R"({"asset":{"version":"1.0"}})", "is glTF 1.0; only glTF 2.0");
+  error(R"({"asset":{"version":"2.0"},"scene":1)" + std::string(400, '0') + "}", "a number that is too large");
+  error("{\n \"asset\" 3}", "its JSON is damaged at line 2, column 10");
   error("glTF", "a.glb: is no valid glTF file");
   error("{", "a.glb: is no valid glTF file");
   error("[]", "a.glb: is no valid glTF file");
@@ -156,7 +146,8 @@ TEST(GltfReader, SaysWhatIsWrong) {
   error(broken("\"POSITION\":0", "\"POSITION\":9"), "accessor 9 does not exist");
   error(broken("\"POSITION\":0", "\"NORMAL\":0"), "no POSITION");
   error(broken("\"nodes\":[0]", "\"nodes\":[3]"), "node 3 does not exist");
-  error(broken("\"mesh\":0", "\"mesh\":0,\"children\":[0]"), "two parents");
+  error(broken("\"mesh\":0", "\"mesh\":0,\"children\":[0]"), "must form a tree");
+  error(broken("\"mesh\":0", "\"mesh\":0},{\"children\":[0,0]"), "two parents");
   error(broken("\"mesh\":0", "\"mesh\":5"), "mesh 5 does not exist");
 }
 

@@ -8,6 +8,12 @@ namespace {
 
 RawShape read(std::string_view text) { return read_obj(text, "a.obj"); }
 
+std::string findings(const RawShape& shape) {
+  std::string kinds;
+  for (const Finding& f : shape.findings) kinds += (kinds.empty() ? "" : " ") + f.kind;
+  return kinds;
+}
+
 TEST(ObjReader, VerticesFacesAndLines) {
   const RawShape shape = read(
       "# comment\nmtllib x.mtl\no thing\nv 0.1 -2e3 +3\nv 1 0 0 1\nv 0 1 0\ng a b\ns off\nvn 0 0 1\nf 1//1 2//1 "
@@ -18,7 +24,14 @@ TEST(ObjReader, VerticesFacesAndLines) {
   EXPECT_EQ(shape.mesh.face_ends, (std::vector<std::size_t>{3, 6}));
   EXPECT_EQ(shape.vertex_lines, (std::vector<int>{4, 5, 6}));
   EXPECT_EQ(shape.face_lines, (std::vector<int>{10, 13}));
-  EXPECT_TRUE(shape.mesh.attributes.empty());
+  ASSERT_EQ(shape.mesh.attributes.size(), 3U);
+  EXPECT_EQ(shape.mesh.find("normal")->values,
+            (std::vector<double>{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(shape.mesh.find("object")->labels, (std::vector<std::string>{"thing"}));
+  EXPECT_EQ(shape.mesh.find("group")->labels[0], "a b");
+  ASSERT_EQ(shape.mesh.links.size(), 1U);
+  EXPECT_EQ(shape.mesh.links[0].file, "x.mtl");
+  EXPECT_EQ(findings(shape), "corners-without-values missing-file left-out");
 }
 
 TEST(ObjReader, KeepsDoublePrecision) {
@@ -48,7 +61,30 @@ TEST(ObjReader, ColoursBecomeLinear) {
   EXPECT_EQ(color.values, (std::vector<double>{1, linear_from_srgb(0.5), 0, 0, 0, 1}));
   EXPECT_EQ(read("v 0 0 0 255 51 0\n").mesh.attributes.at(0).values,
             (std::vector<double>{1, linear_from_srgb(0.2), 0}));
-  EXPECT_TRUE(read("v 0 0 0 1 1 1\nv 0 0 1\n").mesh.attributes.empty());
+  const RawShape some = read("v 0 0 0 0 0 1\nv 0 0 1\n");
+  EXPECT_EQ(some.mesh.attributes.at(0).values, (std::vector<double>{0, 0, 1, 1, 1, 1}));
+  EXPECT_EQ(findings(some), "vertices-without-colour");
+}
+
+TEST(ObjReader, FacesBelongToObjectsGroupsMaterials) {
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  const RawShape shape = read(vertices +
+                              "f 1 2 3\no A#1\ng left arm\nusemtl red fur\ns 2\nf 1 2 3\nusemtl glass\ns off\n"
+                              "f 1 2 3\nusemtl red fur\nf 1 2 3\n");
+  const auto values = [&](const char* name) { return shape.mesh.find(name)->values; };
+  EXPECT_EQ(values("object"), (std::vector<double>{0, 1, 1, 1}));
+  EXPECT_EQ(values("group"), (std::vector<double>{0, 1, 1, 1}));
+  EXPECT_EQ(values("material"), (std::vector<double>{0, 1, 2, 1}));
+  EXPECT_EQ(values("smoothing"), (std::vector<double>{0, 2, 0, 0}));
+  EXPECT_EQ(shape.mesh.find("object")->labels[1], "A#1");
+  EXPECT_EQ(shape.mesh.find("material")->labels, (std::vector<std::string>{"", "red fur", "glass"}));
+  EXPECT_EQ(findings(shape), "");
+}
+
+TEST(ObjReader, WhatIsNotUnderstoodIsNamed) {
+  const RawShape shape = read("v 0 0 0 2\nv 1 0 0\nv 0 1 0\nvt 0 0 1\ncurv 1 2\nl 1 2\nl 2 3\nf 1 2 3/\nf 1//7 2 3\n");
+  EXPECT_EQ(findings(shape), "left-out left-out left-out left-out left-out");
+  EXPECT_NE(shape.findings.back().text.find("2 x \"l\" (line 6)"), std::string::npos) << shape.findings.back().text;
 }
 
 TEST(ObjReader, SaysWhatIsWrongAndWhere) {

@@ -25,7 +25,6 @@ TEST(OffReader, AllWaysToStandOnLines) {
   expect_triangle(read("OFF 3 1 0 0 0 0 1 0 0 0 1 .5 3 0 1 2"));
   expect_triangle(read(
       "# hello\r\nOFF # off\r\n\r\n3 1 0\r\n0 0 0 # first\r\n1 0 0\r\n\r\n0 1 .5\r\n3 0 1 2 0.5 0.5 0.5 # grey\r\n"));
-  expect_triangle(read("OFF\n3 1 0\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 .5 0 0 255\n3 0 1 2\n"));  // colours unannounced
 }
 
 TEST(OffReader, Variants) {
@@ -40,11 +39,24 @@ TEST(OffReader, Variants) {
   const RawShape all =
       read("STCNOFF\n3 1 0\n0 0 0 0 0 1 .1 .2 .3 .4 7 8\n1 0 0 0 0 1 1 1 1 1 5 6\n0 1 .5 0 0 1 0 0 0 1 3 4\n3 0 1 2\n");
   expect_triangle(all);
-  EXPECT_EQ(all.mesh.attributes.at(0).components, 4);
-  EXPECT_EQ(all.mesh.attributes.at(1).values, (std::vector<double>{7, 8, 5, 6, 3, 4}));
+  EXPECT_EQ(all.mesh.find("normal")->values, (std::vector<double>{0, 0, 1, 0, 0, 1, 0, 0, 1}));
+  EXPECT_EQ(all.mesh.find("color")->components, 4);
+  EXPECT_EQ(all.mesh.find("uv")->values, (std::vector<double>{7, 8, 5, 6, 3, 4}));
+}
+
+TEST(OffReader, FacesHaveColours) {
+  const std::string vertices = "OFF\n3 4 0\n0 0 0\n1 0 0\n0 1 .5\n";
+  const RawShape shape = read(vertices + "3 0 1 2 255 51 0\n3 0 1 2 1. 0.2 0\n3 0 1 2\n3 0 1 2 7\n");
+  const Attribute& color = shape.mesh.attributes.at(0);
+  EXPECT_EQ(color.domain, Domain::face);
+  EXPECT_EQ(color.values,
+            (std::vector<double>{1, linear_from_srgb(0.2), 0, 1, linear_from_srgb(0.2), 0, 1, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(shape.findings.size(), 2U);  // one without a colour, one with a number of a list
 }
 
 TEST(OffReader, MoreThanPromisedIsReported) {
+  EXPECT_EQ(read("OFF\n3 1 0\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 .5 0 0 255\n3 0 1 2\n").findings.at(0).kind,
+            "left-out");
   EXPECT_EQ(read("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 2 1 0\n").findings.at(0).kind, "data-behind-the-end");
 }
 

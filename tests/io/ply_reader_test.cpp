@@ -73,7 +73,11 @@ TEST(PlyReader, BothByteOrdersAllTypesAnyOrder) {
     const RawShape shape = read(header + b.text);
     EXPECT_EQ(shape.mesh.points[2], (Point{4e9, -600, 0.2}));
     EXPECT_EQ(shape.mesh.corners, (std::vector<std::int32_t>{0, 1, 2}));
-    ASSERT_EQ(shape.mesh.attributes.size(), 2u);
+    ASSERT_EQ(shape.mesh.attributes.size(), 4u);
+    EXPECT_EQ(find(shape, "kind")->values, (std::vector<double>{-1}));
+    EXPECT_EQ(find(shape, "kind")->type, NumberType::int8);
+    EXPECT_EQ(find(shape, "normal")->values, (std::vector<double>{0, 0, 1, 0, 0, 1, 0, 0, 1}));
+    EXPECT_EQ(shape.findings.size(), 1u);  // the element "junk"
     EXPECT_EQ(find(shape, "quality")->values, (std::vector<double>{0, 0.5, 1}));
     EXPECT_EQ(find(shape, "color")->components, 3);
     EXPECT_EQ(find(shape, "color")->values[4], linear_from_srgb(0.2));
@@ -88,9 +92,56 @@ TEST(PlyReader, AttributesAreGrouped) {
       "int id\n"
       "property list uchar int more\nend_header\n0 0 0 0.25 0.75 0.5 1 0 0.5 7 2 8 9\n");
   EXPECT_EQ(find(shape, "uv")->values, (std::vector<double>{0.25, 0.75}));
-  EXPECT_EQ(find(shape, "color")->values, (std::vector<double>{0.5, 1, 0, 0.5}));  // float: linear already
+  EXPECT_EQ(find(shape, "color")->values, (std::vector<double>{linear_from_srgb(0.5), 1, 0, 0.5}));
   EXPECT_EQ(find(shape, "id")->values, (std::vector<double>{7}));
   EXPECT_EQ(shape.mesh.attributes.size(), 3u);
+  EXPECT_EQ(shape.findings.size(), 1u);  // the list "more"
+}
+
+/// One colour as bytes, as 16 bits, as numbers from 0 to 1, and under MeshLab's other names.
+TEST(PlyReader, ColoursAreTheSameInEveryType) {
+  const auto color = [](const std::string& type, const std::string& prefix, const std::string& values) {
+    std::string header =
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
+    for (const char* name : {"red", "green", "blue"}) header += "property " + type + " " + prefix + name + "\n";
+    return find(read(header + "end_header\n0 0 0 " + values + "\n"), "color")->values;
+  };
+  const std::vector<double> orange = {1, linear_from_srgb(128 / 255.0), 0};
+  EXPECT_EQ(color("uchar", "", "255 128 0"), orange);
+  EXPECT_EQ(color("uchar", "diffuse_", "255 128 0"), orange);
+  EXPECT_NEAR(color("ushort", "", "65535 32896 0")[1], orange[1], 1e-12);
+  EXPECT_NEAR(color("float", "", "1 0.501960784313 0")[1], orange[1], 1e-9);
+  EXPECT_NEAR(color("double", "", "1 0.501960784313 0")[1], orange[1], 1e-9);
+  EXPECT_EQ(color("int", "", "255 128 0"), orange);
+}
+
+TEST(PlyReader, FacesAndCornersHaveAttributesToo) {
+  const RawShape shape = read(
+      "ply\nformat ascii 1.0\ncomment TextureFile my skin.png\nelement vertex 4\nproperty float x\nproperty float y\n"
+      "property float z\nproperty int id\nelement face 2\nproperty list uchar int vertex_indices\nproperty int id\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty list uchar float weight\n"
+      "property list uchar int odd\nend_header\n0 0 0 1\n1 0 0 2\n1 1 0 16777217\n0 1 0 4\n"
+      "3 0 1 2 7 255 0 0 3 1 2 3 1 9\n4 0 1 2 3 -8 0 0 255 4 4 5 6 7 1 9\n");
+  EXPECT_EQ(find(shape, "id")->values, (std::vector<double>{1, 2, 16777217, 4}));
+  EXPECT_EQ(find(shape, "face_id")->values, (std::vector<double>{7, -8}));
+  EXPECT_EQ(find(shape, "color")->domain, Domain::face);
+  EXPECT_EQ(find(shape, "color")->values, (std::vector<double>{1, 0, 0, 0, 0, 1}));
+  EXPECT_EQ(find(shape, "weight")->domain, Domain::corner);
+  EXPECT_EQ(find(shape, "weight")->values, (std::vector<double>{1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(shape.mesh.links.at(0).file, "my skin.png");
+  ASSERT_EQ(shape.findings.size(), 1u);
+  EXPECT_NE(shape.findings[0].text.find("\"odd\""), std::string::npos);
+}
+
+/// A header that ends its lines with \\r alone, before data that begin with \\n.
+TEST(PlyReader, CarriageReturnsAlone) {
+  Bytes b{false, {}};
+  b.add(std::uint8_t{'\n'}).add(std::uint8_t{1}).add(std::uint8_t{2});
+  const RawShape shape = read(
+      "ply\rformat binary_little_endian 1.0\relement vertex 1\rproperty uchar x\rproperty uchar y\rproperty uchar "
+      "z\rend_header\r" +
+      b.text);
+  EXPECT_EQ(shape.mesh.points.at(0), (Point{10, 1, 2}));
 }
 
 TEST(PlyReader, TriangleStripsRestartAtMinusOne) {

@@ -39,13 +39,13 @@ TEST(PlyWriter, DoublesOnlyWhereFloatsWouldLose) {
 
 TEST(PlyWriter, NamesThatMeanSomethingElseAreMarked) {
   TriangleMesh mesh = test::tetrahedron();
-  for (const char* name : {"u", "v", "x", "red", "a b", "a-b"})
+  for (const char* name : {"u", "v", "x", "red", "a b", "a-b", "a_b"})
     mesh.attributes.push_back({name, 1, Domain::vertex, {1, 2, 3, 4}});
   mesh.attributes.push_back({"flow", 2, Domain::vertex, {1, 2, 3, 4, 5, 6, 7, 8}});
   const TriangleMesh back = round_trip(mesh);
   EXPECT_EQ(back.points, mesh.points);
   EXPECT_EQ(back.find("uv"), nullptr);
-  for (const char* name : {"u_", "v_", "x_", "red_", "a_b", "a_b_"})
+  for (const char* name : {"u_", "v_", "x_", "red_", "a_b", "a-b", "a_b_"})
     EXPECT_EQ(back.find(name)->values, (std::vector<double>{1, 2, 3, 4})) << name;
   EXPECT_EQ(back.find("flow_1")->values, (std::vector<double>{2, 4, 6, 8}));
 }

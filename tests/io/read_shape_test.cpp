@@ -63,6 +63,25 @@ TEST_F(ReadShape, FaultsOfTheShapeNameFileLineAndElement) {
   error("a.obj", "v 0 0 0\n", ": the shape has no faces");
 }
 
+TEST_F(ReadShape, BlendersFilesStandOnZ) {
+  const std::string vertices =
+      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const std::string comment = "comment Created by Blender 3.4.1 - www.blender.org, source file: 'cow.blend'\n";
+  const ShapeFile guessed = read_shape(file("a.ply", "ply\nformat ascii 1.0\n" + comment + vertices));
+  EXPECT_EQ(guessed.up, UpAxis::z);
+  ASSERT_EQ(guessed.findings.size(), 1u);
+  EXPECT_EQ(guessed.findings[0].kind, "up-axis");
+  const ShapeFile other = read_shape(file("b.ply", "ply\nformat ascii 1.0\ncomment by hand\n" + vertices));
+  EXPECT_EQ(other.up, UpAxis::y);
+  EXPECT_TRUE(other.findings.empty());
+  // Through GLB it stands: up is y there.
+  save(guessed.mesh, folder_ + "up.glb", {"a", guessed.up});
+  EXPECT_EQ(read_shape(folder_ + "up.glb").mesh.points[2], (Point{0, 0, -1}));
+  save(guessed.mesh, folder_ + "as_is.ply", {"a", guessed.up});
+  EXPECT_EQ(read_shape(folder_ + "as_is.ply").mesh.points[2], (Point{0, 1, 0}));
+}
+
 TEST_F(ReadShape, FilesThatAreNone) {
   test::expect_input_error([&] { read_shape(folder_ + "absent.obj"); }, "absent.obj: cannot be opened");
   test::expect_input_error([&] { read_shape(folder_); }, "known are");

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "base/srgb.h"
 #include "io/read_text.h"
 
 namespace pelage {
@@ -41,6 +42,86 @@ TEST(StlReader, Text) {
   EXPECT_EQ(shape.mesh.face_ends, (std::vector<std::size_t>{3, 7}));
   EXPECT_EQ(shape.face_lines, (std::vector<int>{3, 12}));
   EXPECT_EQ(shape.vertex_lines[1], 5);
+}
+
+/// One facet in the words of a program, as a text around three corners.
+const std::string facet =
+    "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+
+std::vector<std::string> solids(const std::string& bytes) {
+  const RawShape shape = read(bytes);
+  const Attribute* object = shape.mesh.find("object");
+  std::vector<std::string> names;
+  for (std::size_t f = 0; f < shape.mesh.face_count(); ++f)
+    names.push_back(object ? object->labels.at(static_cast<std::size_t>(object->values.at(f))) : "");
+  return names;
+}
+
+TEST(StlReader, NamesOfSolids) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(solids("solid\n" + facet + "endsolid\n"), Names{""});
+  EXPECT_EQ(solids("solid facet normal loop\n" + facet + "endsolid facet normal loop\n"), Names{"facet normal loop"});
+  EXPECT_EQ(solids("solid a\n" + facet + "endsolid a\nsolid b #2\n" + facet + "endsolid"), (Names{"a", "b #2"}));
+  EXPECT_EQ(solids("solid\n" + facet + "endsolid\nsolid\n" + facet + "endsolid"), (Names{"solid 1", "solid 2"}));
+  EXPECT_EQ(solids("solid a\n" + facet + "endsolid a solid b\n" + facet + "endsolid b\n"), (Names{"a", "b"}));
+}
+
+TEST(StlReader, TextOfAllDialects) {
+  std::string flat = facet;  // all on one line
+  for (char& c : flat)
+    if (c == '\n') c = ' ';
+  const std::string split =
+      "facet\n normal\n0\n0 1 outer\nloop vertex 0 0\n0 vertex 1 0 0\n\tvertex 0 1 0 end loop END\nFACET\n";
+  std::string old_mac = "solid x\n" + facet + "endsolid x";
+  for (char& c : old_mac)
+    if (c == '\n') c = '\r';
+  const std::string glued =
+      "facet normal 0 0 1\nouter loop\nvertex0 0 0\nvertex +1.E+000 0 0\nvertex 0 1e0 0\nendloopendfacet";
+  for (const std::string& text :
+       {"solid x\n" + facet + "endsolid x", "solid x " + flat + "endsolid x", "solid x\n" + split + "end solid x",
+        "solid x\n" + glued + "endsolidx\n", old_mac, "\xEF\xBB\xBF\n\n  Solid x\n" + facet + "endsolid",
+        "solid x\nfacet normal -nan(ind) 0 1\n" + facet.substr(19) + "endsolid"}) {
+    const RawShape shape = read(text);
+    ASSERT_EQ(shape.mesh.face_ends, (std::vector<std::size_t>{3})) << text;
+    EXPECT_EQ(shape.mesh.points, (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})) << text;
+    EXPECT_EQ(shape.mesh.find("object")->labels[0], "x") << text;
+    EXPECT_TRUE(shape.findings.empty()) << text;
+  }
+}
+
+TEST(StlReader, WhatIsSkippedOrGuessedIsNamed) {
+  const auto kinds = [](const std::string& bytes) {
+    std::string text;
+    for (const Finding& f : read(bytes).findings) text += f.kind + " ";
+    return text;
+  };
+  EXPECT_EQ(kinds("solid\n" + facet + "endsolid\n\x1a" + std::string(3, '\0')), "data-behind-the-end ");
+  EXPECT_EQ(kinds("solid\n" + facet), "no-end ");
+  EXPECT_EQ(kinds(binary("", 2, 2) + "signed"), "data-behind-the-end ");
+  std::string bytes = binary("", 1, 1);
+  bytes[84 + 11] = '\xbf';  // the normal points to -1
+  EXPECT_EQ(kinds(bytes), "turned-normals ");
+  bytes = binary("", 1, 1);
+  bytes[132] = 5;
+  EXPECT_EQ(kinds(bytes), "attribute-bytes ");
+}
+
+/// A header and the attribute bytes of two facets.
+std::vector<double> face_colors(std::string header, std::uint16_t first, std::uint16_t second) {
+  std::string bytes = binary(header, 2, 2);
+  std::memcpy(bytes.data() + 132, &first, 2);
+  std::memcpy(bytes.data() + 182, &second, 2);
+  const RawShape shape = read(bytes);
+  const Attribute* color = shape.mesh.find("color");
+  return color ? color->values : std::vector<double>{};
+}
+
+TEST(StlReader, ColoursOfBothConventions) {
+  const double half = linear_from_srgb(16 / 31.0);
+  EXPECT_EQ(face_colors("", 0x8000 | 31 << 10, 0x8000 | 16 << 5 | 31), (std::vector<double>{1, 0, 0, 0, half, 1}));
+  const std::string magics = std::string("COLOR=") + '\xff' + '\x33' + '\0' + '\xff' + " by Magics";
+  EXPECT_EQ(face_colors(magics, 31 | 16 << 5, 0x8000), (std::vector<double>{1, half, 0, 1, linear_from_srgb(0.2), 0}));
+  EXPECT_TRUE(face_colors("", 0, 0).empty());
 }
 
 TEST(StlReader, SaysWhatIsWrongAndWhere) {

@@ -6,24 +6,44 @@ namespace pelage {
 namespace {
 
 TEST(TextScanner, WordsLinesCommentsAndContinuations) {
-  TextScanner text("\xEF\xBB\xBF one\ttwo # three\r\n\r\nfour\\\r\n five\rsix", "f");
+  TextScanner text("\xEF\xBB\xBF one\ttwo # three\r\n\r\nfo\\ur \\ \r\n five#not six\rsix\x1a", "f");
   EXPECT_EQ(text.word(), "one");
   EXPECT_EQ(text.word(), "two");
   EXPECT_TRUE(text.at_line_end());
   EXPECT_EQ(text.word(), "");
   EXPECT_FALSE(text.at_end());
   EXPECT_EQ(text.line(), 3);
-  EXPECT_EQ(text.word(), "four\\");  // a backslash in a word is part of it
-  text.skip_line();
+  EXPECT_EQ(text.word(), "fo\\ur");  // a backslash in a word is part of it
   EXPECT_EQ(text.word(), "five");
   EXPECT_FALSE(text.at_end());
   EXPECT_EQ(text.line(), 5);
   EXPECT_EQ(text.word(), "six");
   EXPECT_TRUE(text.at_end());
-  TextScanner continued("a \\\n b\nc", "f");
-  continued.word();
+  TextScanner continued("a\\\n b\nc", "f");
+  EXPECT_EQ(continued.word(), "a");
   EXPECT_EQ(continued.word(), "b");
   EXPECT_EQ(continued.line(), 2);
+}
+
+TEST(TextScanner, NamesReachToTheEndOfTheLine) {
+  TextScanner text("usemtl  Red fur #2 \r\nnext", "f");
+  text.word();
+  EXPECT_EQ(text.rest_of_line(), "Red fur #2");
+  text.skip_line();
+  EXPECT_EQ(text.word(), "next");
+}
+
+TEST(TextScanner, WideTextsAreNamed) {
+  const std::string narrow = "v 0 0 0\nv 1 0 0\n";
+  std::string little = "\xFF\xFE", big = "\xFE\xFF";
+  for (char c : narrow) {
+    little += {c, '\0'};
+    big += {'\0', c};
+  }
+  for (const std::string& text : {little, big, little.substr(2), big.substr(2)})
+    test::expect_input_error([&] { refuse_wide_text(text, "f"); }, "f: is UTF-16 text; save it as UTF-8");
+  refuse_wide_text(narrow, "f");
+  refuse_wide_text(std::string(100, '\0'), "f");
 }
 
 double number(const char* word) { return TextScanner(word, "f").number("a number"); }

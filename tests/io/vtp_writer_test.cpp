@@ -50,7 +50,7 @@ TEST(VtpWriter, Base64OfTheStandard) {  // RFC 4648, section 10
 
 TEST(VtpWriter, ArraysHoldTheMesh) {
   const TriangleMesh mesh = test::closed_mesh();
-  const std::string vtp = encode_vtp(mesh);
+  const std::string vtp = encode_vtp(polygons_of(mesh));
   const auto points = array<float>(vtp, "Points"), a = array<float>(vtp, "a");
   const auto corners = array<std::int32_t>(vtp, "connectivity"), ends = array<std::int32_t>(vtp, "offsets");
   const auto rgb = array<std::uint8_t>(vtp, "RGB");
@@ -70,7 +70,7 @@ TEST(VtpWriter, ArraysHoldTheMesh) {
 TEST(VtpWriter, SeamsAreSplitAndNamesEscaped) {
   TriangleMesh mesh = test::seamed_mesh();
   mesh.find("a")->name = "a<b>&\"c\"";
-  const std::string vtp = encode_vtp(mesh);
+  const std::string vtp = encode_vtp(polygons_of(mesh));
   EXPECT_EQ(array<float>(vtp, "TextureCoordinates").size(), 2 * (mesh.points.size() + 5));
   EXPECT_NE(vtp.find("Name=\"a&#60;b&#62;&#38;&#34;c&#34;\""), std::string::npos);
 }

@@ -53,6 +53,36 @@ for command in grow check models analyse map gallery recipes fair field compare 
   [ "$(wc -L <stdout)" -le 100 ] || fail "$command --help is wider than 100 columns"
 done
 
+# --- the way up -------------------------------------------------------------------------------------------
+cat >tower.ply <<'PLY'
+ply
+format ascii 1.0
+comment Created in Blender version 4.2.0
+element vertex 4
+property float x
+property float y
+property float z
+element face 4
+property list uchar int vertex_indices
+end_header
+0 0 0
+1 0 0
+0 1 0
+0 0 9
+3 0 2 1
+3 0 1 3
+3 1 2 3
+3 2 0 3
+PLY
+height='d["high"][1] - d["low"][1]'
+succeed grow tower.ply "${quick[@]}" --keep-shape -o up.glb
+succeed check up.glb --json && json "abs($height - 9) < 1e-6"
+grep -qa '"name":"tower"' up.glb || fail "mesh and node are not named after the shape"
+succeed grow tower.ply "${quick[@]}" --keep-shape --up y -o down.glb
+succeed check down.glb --json && json "abs($height - 1) < 1e-6"
+succeed fair tower.ply --steps 0 -o up.glb
+succeed check up.glb --json && json "abs($height - 9) < 1e-6"
+
 # --- direction fields -------------------------------------------------------------------------------------
 succeed field $sphere -n 1 -o field.vtp,field.ply --picture field.png --picture-size 60 --json
 is_json stdout
@@ -352,6 +382,49 @@ before, after = vertices("tube.obj"), vertices("tube_out.obj")
 far = max(abs(x - y) for p, q in zip(before, after) for x, y in zip(p, q))
 sys.exit(len(after) < len(before) or far > 1e-6)
 PYTHON
+
+# --- the form of the file --------------------------------------------------------------------------------------
+cat >cube.obj <<'OBJ'
+mtllib cube.mtl
+o Cube
+v 1 1 -1
+v 1 -1 -1
+v 1 1 1
+v 1 -1 1
+v -1 1 -1
+v -1 -1 -1
+v -1 1 1
+v -1 -1 1
+vt 0.625 0.5
+vt 0.375 0.5
+vt 0.625 0.75
+vt 0.375 0.75
+vt 0.875 0.5
+vt 0.625 0.25
+g lid
+usemtl Fur
+f 1/1 5/5 7/4 3/3
+f 4/4 3/3 7/1 8/2
+f 8/2 7/1 5/6 6/4
+g rest
+usemtl Glass
+f 6/1 2/2 4/4 8/5
+f 2/2 1/1 3/3 4/4
+f 6/3 5/6 1/1 2/2
+OBJ
+printf 'newmtl Fur\nKd 0.8 0.4 0.1\nnewmtl Glass\nKd 0.1 0.4 0.8\n' >cube.mtl
+same_form() {  # ignores what may differ: colours behind v, normals, and the numbers of vt
+  diff <(sed -E 's/^(v [^ ]+ [^ ]+ [^ ]+).*/\1/; /^(#|vn|vt|mtllib)/d; s:/[0-9]*(/[0-9]*)?::g' "$1" | sort) \
+    <(sed -E 's/^(v [^ ]+ [^ ]+ [^ ]+).*/\1/; /^(#|vn|vt|mtllib)/d; s:/[0-9]*(/[0-9]*)?::g' "$2" | sort) >/dev/null &&
+    [ "$(grep -c '^vt ' "$1")" -eq "$(grep -c '^vt ' "$2")" ]
+}
+succeed grow cube.obj --size 0.3 --steps 2 --keep-shape -o kept.obj,kept.stl
+same_form cube.obj kept.obj || fail "--keep-shape changed the form of the file"
+grep -q 'kept.stl: STL cannot hold .*color' stderr || fail "the loss of the coat is not said"
+grep -q 'too long to show' stderr || fail "the coarseness of a kept shape is not said"
+succeed fair cube.obj --steps 0 -o faired.obj
+same_form cube.obj faired.obj || fail "fair changed the form of the file"
+expect 2 '--keep-shape splits nothing' grow cube.obj --size 0.3 --keep-shape --detail 2 -o kept.obj
 
 # --- Ctrl-C ------------------------------------------------------------------------------------------------------
 mkdir interrupted

@@ -25,7 +25,7 @@ same() {
 cases=("builtin:animal?n=3000 --size 0.08 --steps 40"
   "builtin:plane?n=2500 --size 0.2 --steps 40 --model gray-scott"
   "builtin:sphere?n=642 --size 0.3 --steps 10 --stepper paper"
-  "builtin:knot?n=3000 --size 0.3 --steps 10 --stepper explicit --step 0.01 --keep-shape")
+  "builtin:knot?n=3000 --size 0.3 --steps 10 --stepper explicit --step 0.01 --flat")
 debug=$source/build/debug/bin/pelage
 if [ -x "$debug" ]; then
   changed=$(cd "$source" && find src apps models recipes -newer "$debug" | sed -n 1p)

@@ -88,7 +88,8 @@ inline std::string first_violation(const TriangleMesh& mesh) {
     for (double x : p)
       if (!std::isfinite(x)) return "coordinate not finite";
   for (const Attribute& a : mesh.attributes) {
-    const std::size_t n = a.domain == Domain::vertex ? mesh.points.size() : 3 * mesh.triangles.size();
+    const std::size_t n =
+        a.domain == Domain::vertex ? mesh.points.size() : (a.domain == Domain::corner ? 3 : 1) * mesh.triangles.size();
     if (a.values.size() != n * a.components) return "attribute " + a.name + " has a wrong length";
     for (double x : a.values)
       if (!std::isfinite(x)) return "attribute " + a.name + " not finite";

@@ -49,7 +49,7 @@ TEST(Texture, OddPlacesStayInsideOfTheImage) {
 }
 
 TEST(Texture, GivesLuminanceAndChannels) {
-  EXPECT_EQ(attribute_names("c")[3], "c_3");
+  EXPECT_EQ(color_names("c")[3], "c_3");
   const Texture red{"c", 1, 1,
                     std::make_shared<const std::vector<std::uint16_t>>(std::vector<std::uint16_t>{65535, 0, 13107})};
   const Attribute uv{"uv", 2, Domain::vertex, {0, 0, 0, 0, 0, 0, 0, 0}};

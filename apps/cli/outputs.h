@@ -1,0 +1,32 @@
+#pragma once
+// Writing meshes, and saying what their formats cannot hold.
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "io/write_mesh.h"
+#include "pelage/io.h"
+#include "text.h"
+
+namespace pelage {
+
+/// Writes the mesh to every path; warns of what is lost, and returns these warnings.
+template <class Mesh>
+std::vector<std::string> save_all(const Mesh& mesh, const std::vector<std::string>& paths, const SaveOptions& form) {
+  std::vector<std::string> warnings;
+  for (const std::string& path : paths) {
+    save(mesh, path, form);
+    for (const std::string& loss : losses(mesh, extension_of(path))) warnings.push_back(path + ": " + loss);
+  }
+  for (const std::string& text : warnings) std::fprintf(stderr, "pelage: warning: %s\n", one_line(text).c_str());
+  return warnings;
+}
+
+/// A line for each.
+inline void print_findings(const std::vector<Finding>& findings) {
+  for (const Finding& f : findings)
+    std::printf("%-9s %s\n", f.repaired ? "repaired" : "noted", one_line(f.text).c_str());
+}
+
+}  // namespace pelage
