@@ -14,8 +14,8 @@ namespace pelage {
 
 namespace {
 
-/// Colours are linear along the edges of the output: so many edges per wavelength keep spots round.
-constexpr double edges_per_wavelength = 8;
+/// Colours are linear along the edges of the output: with so many per wavelength borders of black and white are smooth.
+constexpr double edges_per_wavelength = 12;
 /// Splitting for the sake of smooth colours stops here: about 100 MB of output.
 constexpr std::size_t most_triangles = 1'500'000;
 /// More than this no memory holds.
