@@ -41,6 +41,28 @@ std::uint64_t text_hash(std::string_view text) {
   return key;
 }
 
+/// What people write for things that have another name here, and what to do.
+std::string written_otherwise(std::string_view word) {
+  static const std::map<std::string, std::string, std::less<>> known = {
+      {"laplacian", "the Laplacian of u is written lap(u)"},
+      {"laplace", "the Laplacian of u is written lap(u)"},
+      {"del2", "the Laplacian of u is written lap(u)"},
+      {"grad", "there are no gradients in formulas, only lap(u)"},
+      {"grad2", "there are no gradients in formulas, only lap(u)"},
+      {"div", "there are no fluxes in formulas; `diffusion` may vary"},
+      {"sgn", "the sign of a is written sign(a)"},
+      {"signum", "the sign of a is written sign(a)"},
+      {"sech", "sech(a) is written 1/cosh(a)"},
+      {"fabs", "the modulus of a is written abs(a)"},
+      {"rand", "random numbers are uniform(0, 1), normal(mean, deviation) or noise(length)"},
+      {"random", "random numbers are uniform(0, 1), normal(mean, deviation) or noise(length)"},
+      {"randn", "random numbers are uniform(0, 1), normal(mean, deviation) or noise(length)"},
+      {"time", "the time is written t"},
+  };
+  const auto found = known.find(word);
+  return found == known.end() ? "" : found->second;
+}
+
 class Parser {
  public:
   Parser(Graph& graph, const Formula& formula, const Scope& scope, std::string_view label)
@@ -331,7 +353,8 @@ void Parser::unknown(const Token& name, bool is_function) const {
   if (!is_function)
     for (const auto& [text, id] : scope_.names) names.push_back(text);
   names.insert(names.end(), reserved_names().begin(), reserved_names().end());
-  const std::string hint = did_you_mean(word, names);
+  std::string hint = written_otherwise(word);
+  if (hint.empty()) hint = did_you_mean(word, names);
   throw Error(Fault::usage,
               (is_function ? "unknown function \"" : "unknown name \"") + word + "\"" +
                   (hint.empty() ? "; a mesh attribute is written attribute(name)" : "; " + hint),

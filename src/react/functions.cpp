@@ -29,20 +29,44 @@ Term smoothstep(Arguments in) {
   return s * s * (3.0 - 2.0 * s);
 }
 
-constexpr std::array<Function, 17> functions = {{
+Term number(Arguments in, double value) { return {in[0].graph, in[0].graph->constant(value)}; }
+
+Term heaviside(Arguments in) { return step(std::array{number(in, 0), in[0]}); }
+
+Term sign(Arguments in) {
+  const Term zero = number(in, 0);
+  return operation<Op::less>(std::array{zero, in[0]}) - operation<Op::less>(std::array{in[0], zero});
+}
+
+Term decimal_logarithm(Arguments in) { return operation<Op::logarithm>(in) / number(in, 2.302585092994045684); }
+
+Term hyperbolic_cosine(Arguments in) {
+  return 0.5 * (operation<Op::exponential>(in) + operation<Op::exponential>(std::array{-in[0]}));
+}
+
+/// exp(a) - exp(-a) would lose all digits near 0.
+Term hyperbolic_sine(Arguments in) { return operation<Op::hyperbolic_tangent>(in) * hyperbolic_cosine(in); }
+
+constexpr std::array<Function, 23> functions = {{
     {"if", "if(condition, a, b)", 3, &operation<Op::select>},
     {"min", "min(a, b)", 2, &operation<Op::minimum>},
     {"max", "max(a, b)", 2, &operation<Op::maximum>},
     {"abs", "abs(a)", 1, &operation<Op::absolute>},
+    {"sign", "sign(a)", 1, &sign},
     {"step", "step(edge, x)", 2, &step},
+    {"heaviside", "heaviside(x)", 1, &heaviside},
     {"smoothstep", "smoothstep(edge0, edge1, x)", 3, &smoothstep},
     {"clamp", "clamp(x, lower, upper)", 3, &clamp},
     {"exp", "exp(a)", 1, &operation<Op::exponential>},
     {"log", "log(a)", 1, &operation<Op::logarithm>},
+    {"ln", "ln(a)", 1, &operation<Op::logarithm>},
+    {"log10", "log10(a)", 1, &decimal_logarithm},
     {"sqrt", "sqrt(a)", 1, &operation<Op::square_root>},
     {"sin", "sin(a)", 1, &operation<Op::sine>},
     {"cos", "cos(a)", 1, &operation<Op::cosine>},
     {"tan", "tan(a)", 1, &operation<Op::tangent>},
+    {"sinh", "sinh(a)", 1, &hyperbolic_sine},
+    {"cosh", "cosh(a)", 1, &hyperbolic_cosine},
     {"tanh", "tanh(a)", 1, &operation<Op::hyperbolic_tangent>},
     {"pow", "pow(a, b)", 2, &operation<Op::power>},
     {"mod", "mod(a, b)", 2, &operation<Op::modulo>},

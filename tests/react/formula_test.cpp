@@ -46,6 +46,14 @@ TEST(Formula, Functions) {
   EXPECT_DOUBLE_EQ(value_of("exp(x) + log(y) + sqrt(z)", 1, 2, 3), std::exp(1.0) + std::log(2.0) + std::sqrt(3.0));
   EXPECT_DOUBLE_EQ(value_of("sin(x) + cos(y) + tan(z) + tanh(t)", 1, 2, 3, 4),
                    std::sin(1.0) + std::cos(2.0) + std::tan(3.0) + std::tanh(4.0));
+  EXPECT_EQ(value_of("heaviside(x)", 0) + value_of("heaviside(x)", 2) + value_of("heaviside(x)", -1e-9), 2);
+  EXPECT_EQ(value_of("sign(x) + 10*sign(y) + 100*sign(z)", -3, 0, 2), 99);
+  EXPECT_EQ(value_of("ln(x)", 3), std::log(3.0));
+  EXPECT_DOUBLE_EQ(value_of("log10(x)", 1e-7), -7);
+  for (const double x : {-3.0, -1e-9, 0.0, 1e-12, 0.5, 4.0}) {
+    EXPECT_DOUBLE_EQ(value_of("sinh(x)", x), std::sinh(x));
+    EXPECT_DOUBLE_EQ(value_of("cosh(x)", x), std::cosh(x));
+  }
   EXPECT_EQ(value_of("pi"), std::numbers::pi);
   EXPECT_EQ(value_of("e"), std::numbers::e);
 }
@@ -73,7 +81,10 @@ TEST(Formula, FaultsAreLocatedAndSayWhatWasExpected) {
       {"2**3", "m.toml:7:12: '**' is not an operator; powers are written a^b"},
       {"1 $ 2", "m.toml:7:13: character '$' has no meaning in a formula"},
       {"1e999", "m.toml:7:11: number 1e999 is too large or too small"},
-      {"1 +\n  cosh(2)", "m.toml:8:3: unknown function \"cosh\"; did you mean \"cos\"?"},
+      {"1 +\n  cosb(2)", "m.toml:8:3: unknown function \"cosb\"; did you mean \"cos\"?"},
+      {"laplacian(2)", "m.toml:7:11: unknown function \"laplacian\"; the Laplacian of u is written lap(u)"},
+      {"sgn(2)", "m.toml:7:11: unknown function \"sgn\"; the sign of a is written sign(a)"},
+      {"2*time", "m.toml:7:13: unknown name \"time\"; the time is written t"},
       {"2*bta", "m.toml:7:13: unknown name \"bta\"; did you mean \"beta\"?"},
       {"2*qqqqqq", "m.toml:7:13: unknown name \"qqqqqq\"; a mesh attribute is written attribute(name)"},
       {"beta(2)", "m.toml:7:11: \"beta\" is not a function; write a * between factors"},
