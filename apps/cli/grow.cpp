@@ -157,10 +157,9 @@ void write_picture(const std::string& path, const Progress& progress, GrowReport
   report.file(path);
 }
 
-PictureOptions picture_options(const GrowOptions& options, const Recipe& recipe, UpAxis up) {
-  constexpr int draft_samples = 8;
+PictureOptions picture_options(const GrowOptions& options, const Quality& quality, UpAxis up) {
   PictureOptions picture;
-  if (recipe.quality.value == "draft") picture.samples = draft_samples;
+  picture.samples = quality.picture_samples;
   picture.width = picture.height = options.picture_size;
   picture.up = up;
   return picture;
@@ -227,7 +226,7 @@ void grow(const GrowOptions& options) {
     write_outputs(options, kept_shape(file, grown.coat, grown.species), form, progress, report);
   else
     write_outputs(options, grown.coat, form, progress, report);
-  const PictureOptions picture = picture_options(options, recipe, up);
+  const PictureOptions picture = picture_options(options, *planned.quality, up);
   write_picture(options.picture, progress, report, [&](const Progress& p) { return render(grown.coat, picture, p); });
   write_picture(options.panels, progress, report,
                 [&](const Progress& p) { return four_panels(recipe, *grown.shape, grown.coat, picture, p); });

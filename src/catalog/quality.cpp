@@ -5,9 +5,9 @@ namespace pelage {
 // docs/performance.md has the errors against the time that they take.
 std::span<const Quality> qualities() {
   static constexpr Quality all[] = {
-      {"draft", "at once", 0.8, 5},
-      {"normal", "as good as a picture shows", 1, 1},
-      {"fine", "for measurements", 1.7, 0.03},
+      {"draft", "at once", 0.8, 5, 8},
+      {"normal", "as good as a picture shows", 1, 1, 32},
+      {"fine", "for measurements", 1.7, 0.03, 32},
   };
   return all;
 }

@@ -114,10 +114,10 @@ class Rkc2 final : public Stepper {
   std::vector<ErrorTerms> error_terms(const System& system, double dt) const;
   void add_error(const ErrorTerms& terms, std::size_t pair, const Fields& y, const Fields& d, std::size_t first,
                  std::size_t count, RateSums& sums) const;
-  std::vector<float> derivatives(const System& system, double t, std::size_t first, std::size_t count,
+  std::vector<float> derivatives(const FloatRates& jacobian, std::size_t first, std::size_t count,
                                  BlockWork& work) const;
-  void probe(const System& system, const FloatRates& rates, double t, std::size_t first, std::size_t count,
-             BlockWork& work, RateSums& sums) const;
+  void probe(const System& system, const FloatRates& rates, const FloatRates& jacobian, std::size_t first,
+             std::size_t count, BlockWork& work, RateSums& sums) const;
   double error_of(const RateSums& sums) const;
   double stiffness() const;
 
@@ -278,6 +278,7 @@ std::vector<ErrorTerms> Rkc2::error_terms(const System& system, double dt) const
 RateSums Rkc2::evaluate(const System& system, const Fields& y, double t, const Fields* d, double dt) {
   before_last(y);
   const FloatRates rates = rates_at(system, t);
+  const FloatRates jacobian = system.reaction.float_jacobian ? system.reaction.float_jacobian(t) : FloatRates{};
   const std::vector<ErrorTerms> terms = error_terms(system, dt);
   const auto partial = [&](std::size_t begin, std::size_t end) {
     RateSums sums(species_);
@@ -293,7 +294,7 @@ RateSums Rkc2::evaluate(const System& system, const Fields& y, double t, const F
         loops_->add_rates(g, work.rate()[2 * p], work.rate()[2 * p + 1], count, f_next_[p].data() + at);
         if (d) add_error(terms[p], p, y, *d, first, count, sums);
       }
-      probe(system, rates, t, first, std::min(probed_nodes, count), work, sums);
+      probe(system, rates, jacobian, first, std::min(probed_nodes, count), work, sums);
     }
     return sums;
   };
@@ -314,22 +315,22 @@ void Rkc2::add_error(const ErrorTerms& terms, std::size_t p, const Fields& y, co
 
 /// The Jacobian of the reaction at the first nodes of a block whose values are in `work`: dR_i/du_j at node k is at
 /// (i * species + j) * probed_nodes + k; infinite where it is not known.
-std::vector<float> Rkc2::derivatives(const System& system, double t, std::size_t first, std::size_t count,
+std::vector<float> Rkc2::derivatives(const FloatRates& jacobian, std::size_t first, std::size_t count,
                                      BlockWork& work) const {
   std::vector<float> values(species_ * species_ * probed_nodes, std::numeric_limits<float>::infinity());
-  if (!system.reaction.float_jacobian) return values;
+  if (!jacobian) return values;
   std::vector<float*> out(species_ * species_);
   for (std::size_t e = 0; e < out.size(); ++e) out[e] = values.data() + e * probed_nodes;
-  system.reaction.float_jacobian(t)(work.in(), first, count, out);
+  jacobian(work.in(), first, count, out);
   return values;
 }
 
 /// The largest entries of the Jacobian of the reaction at the first nodes of a block whose values and rates are in
 /// `work`. Of derivative and difference quotient the smaller counts: where a rate jumps it has no slope that a step
 /// could be too long for, and where a root begins no bounded one.
-void Rkc2::probe(const System& system, const FloatRates& rates, double t, std::size_t first, std::size_t count,
-                 BlockWork& work, RateSums& sums) const {
-  const std::vector<float> slopes = derivatives(system, t, first, count, work);
+void Rkc2::probe(const System& system, const FloatRates& rates, const FloatRates& jacobian, std::size_t first,
+                 std::size_t count, BlockWork& work, RateSums& sums) const {
+  const std::vector<float> slopes = derivatives(jacobian, first, count, work);
   for (const std::size_t j : pairs_.evolving()) {
     float* u = work.u()[pairs_.place(j)];
     const float step = probe_next_[j] > 0 ? 0.01f * probe_next_[j] : 1e-3f;
