@@ -84,7 +84,9 @@ struct CheckOptions {
 
 void check(const CheckOptions& options) {
   ShapeFile file = read_shape(options.shape);
-  const MeshReport report = describe(file.mesh, std::move(file.findings));
+  MeshReport report = describe(file.mesh, std::move(file.findings));
+  if (file.source && file.source->polygons.find("normal") && !file.mesh.find("normal"))
+    report.attributes.emplace_back("normal (of the file, and kept with its form; the surface has its own)");
   if (options.json) return print_json(to_json(report, options.shape));
   std::puts(options.shape.c_str());
   print_report(report);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/suggest.h"
 #include "command.h"
 #include "fair/attribute.h"
 #include "interrupt.h"
@@ -98,7 +99,10 @@ Faired faired(const FairCommand& command, const TriangleMesh& mesh, const Progre
 /// The file's own mesh with its points where they are now, and with the attribute that was smoothed.
 PolygonMesh in_form_of_file(const FairCommand& command, const ShapeFile& file, TriangleMesh mesh) {
   if (!file.source) return polygons_of(mesh);
-  std::erase_if(mesh.attributes, [&](const Attribute& a) { return a.name != command.attribute; });
+  std::vector<std::string> names;
+  for (const Attribute& a : mesh.attributes) names.push_back(a.name);
+  const std::string* smoothed = matching_name(command.attribute, names);
+  std::erase_if(mesh.attributes, [&](const Attribute& a) { return !smoothed || a.name != *smoothed; });
   return as_in_file(*file.source, mesh);
 }
 

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "base/box.h"
+#include "base/suggest.h"
 #include "command.h"
 #include "direction/guides.h"
 #include "direction/hatching.h"
@@ -19,6 +20,7 @@
 #include "pelage/io.h"
 #include "pelage/render.h"
 #include "progress_bar.h"
+#include "run/directions.h"
 #include "run/program.h"
 #include "text.h"
 #include "usage.h"
@@ -92,7 +94,10 @@ Counts count(const DirectionField& field) {
   return c;
 }
 
+/// The shape with the field instead of directions that it had.
 TriangleMesh with_field(TriangleMesh mesh, const Connection& c, const DirectionField& field) {
+  for (const std::string& name : direction_attributes(mesh))
+    std::erase_if(mesh.attributes, [&](const Attribute& a) { return a.name == name; });
   Attribute normal{"normal", 3, Domain::vertex, {}};
   for (const Point& n : c.normal) normal.values.insert(normal.values.end(), n.begin(), n.end());
   mesh = with_directions(std::move(mesh), field.direction);
@@ -111,7 +116,9 @@ void draw(const FieldCommand& o, const TriangleMesh& mesh, UpAxis up, const Conn
             o.picture);
 }
 
-void report(const FieldCommand& o, const TriangleMesh& mesh, const DirectionField& field) {
+void report(const FieldCommand& o, const ShapeFile& file, const std::vector<std::string>& warnings,
+            const DirectionField& field) {
+  const TriangleMesh& mesh = file.mesh;
   const Counts c = count(field);
   std::vector<std::string> files = o.outputs;
   if (!o.picture.empty()) files.push_back(o.picture);
@@ -122,8 +129,11 @@ void report(const FieldCommand& o, const TriangleMesh& mesh, const DirectionFiel
                        {"singularities", {{"positive", c.positive}, {"negative", c.negative}}},
                        {"index_sum", json_number(static_cast<double>(c.sum) / o.n)},
                        {"roughness", json_number(field.roughness)},
-                       {"files", files}});
+                       {"files", files},
+                       {"findings", json_findings(file.findings)},
+                       {"warnings", warnings}});
   if (o.quiet) return;
+  print_findings(file.findings);
   std::printf("field     %d direction%s at each of %zu vertices\n", o.n, o.n == 1 ? "" : "s", mesh.points.size());
   std::printf("singular  %d triangles of positive index, %d of negative; sum of the indices %s\n", c.positive,
               c.negative, number(static_cast<double>(c.sum) / o.n).c_str());
@@ -145,10 +155,15 @@ void run_field(const FieldCommand& o) {
   const Connection c = make_connection(make_topology(mesh.points.size(), mesh.triangles), mesh.points);
   const double diagonal = box_of(mesh.points).diagonal();
   const DirectionField field = direction_field(c, o.n, find_guides(wish_of(o, diagonal), c, mesh.points, diagonal));
-  if (!o.outputs.empty()) save_all(with_field(mesh, c, field), o.outputs, {object_name(o.shape), up});
+  std::vector<std::string> warnings;
+  if (!o.outputs.empty()) {
+    const std::vector<std::string> before = direction_attributes(mesh);
+    warnings = save_all(with_field(mesh, c, field), o.outputs, {object_name(o.shape), up});
+    if (!before.empty()) warn("the new field takes the place of " + join_names(before) + " of the shape", warnings);
+  }
   if (!o.picture.empty()) draw(o, mesh, up, c, field, bar.progress());
   bar.clear();
-  report(o, mesh, field);
+  report(o, file, warnings, field);
 }
 
 void add_guide_options(CLI::App* app, FieldCommand& o) {

@@ -137,10 +137,10 @@ void write_outputs(const GrowOptions& options, const Mesh& coat, const SaveOptio
 }
 
 /// The file's own mesh and attributes with what the coat adds to them.
-PolygonMesh kept_shape(const ShapeFile& file, const TriangleMesh& coat, const std::vector<std::string>& species) {
+PolygonMesh kept_shape(const ShapeFile& file, const TriangleMesh& coat, const Paint& paint) {
   if (!file.source) return polygons_of(coat);
   SourceShape source = *file.source;
-  for (Attribute& a : source.polygons.attributes) rename_input(a, species);
+  rename_input(source.polygons.attributes, paint);
   TriangleMesh added = coat;
   std::erase_if(added.attributes, [&](const Attribute& a) { return source.polygons.find(a.name) != nullptr; });
   return as_in_file(source, added);
@@ -175,7 +175,7 @@ GrowReport::Form form_of(const GrowOptions& options) {
 struct Grown {
   TriangleMesh coat;
   std::shared_ptr<const TriangleMesh> shape;
-  std::vector<std::string> species;
+  Paint paint;
 };
 
 Grown grown_coat(const GrowOptions& options, const Plan& planned, const Look& look, TriangleMesh shape,
@@ -193,9 +193,7 @@ Grown grown_coat(const GrowOptions& options, const Plan& planned, const Look& lo
   progress("colouring", 0);
   const CoatFields fields = run.fields();
   if (look.keep_shape) report.coarseness(run);
-  Grown grown{dress(fields, look), run.program().shape, fields.species};
-  grown.coat.links = grown.shape->links;
-  return grown;
+  return {dress(fields, look), run.program().shape, resolve_paint(look, fields.species)};
 }
 
 void grow(const GrowOptions& options) {
@@ -223,7 +221,7 @@ void grow(const GrowOptions& options) {
   const UpAxis up = options.up.value_or(file.up);
   const SaveOptions form{object_name(recipe.shape), up};
   if (recipe.look.keep_shape)
-    write_outputs(options, kept_shape(file, grown.coat, grown.species), form, progress, report);
+    write_outputs(options, kept_shape(file, grown.coat, grown.paint), form, progress, report);
   else
     write_outputs(options, grown.coat, form, progress, report);
   const PictureOptions picture = picture_options(options, *planned.quality, up);

@@ -185,6 +185,10 @@ void add_output_options(CLI::App& app, GrowOptions& o) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->group(group);
+  app.add_flag(
+         "--no-fields", o.no_fields,
+         "Leave the concentrations of the species out of these files; colours and the shape's own attributes stay")
+      ->group(group);
   app.add_option("--picture", o.picture, "File for a picture: .png")->type_name("FILE")->group(group);
   app.add_option("--panels", o.panels,
                  "With --fair: file for four pictures side by side, .png: the noisy shape, the faired one, the pattern "
@@ -342,6 +346,7 @@ void apply(const GrowOptions& o, Look& look) {
   look.invert |= o.invert;
   look.keep_shape |= o.keep_shape;
   look.flat |= o.flat;
+  look.fields &= !o.no_fields;
   override(o.detail, look.detail);
   if (look.keep_shape && look.detail.value_or(0) > 0)
     throw Error(Fault::usage, "--keep-shape splits nothing: leave --detail out, or take --flat instead");

@@ -25,7 +25,7 @@ struct GrowOptions {
   std::string fair;  ///< method of fairing, or empty
   std::optional<std::string> motion;
   bool profile = false;
-  bool interpolate = false, invert = false, keep_shape = false, flat = false;
+  bool interpolate = false, invert = false, keep_shape = false, flat = false, no_fields = false;
 
   std::vector<std::string> outputs;
   std::string picture, panels, checkpoint, resume;

@@ -93,6 +93,7 @@ void GrowReport::pattern(const Run& run) {
     const std::string name = run.program().stages.size() > 1 ? p.name + ": " : "";
     line("pattern", name + p.model_name + " at a wavelength of " + number(p.size) + " world units (" +
                         brief(p.size / diagonal) + " of the diagonal)");
+    if (!p.follows.empty()) line("following", name + p.follows);
     Json parameters = Json::object();
     for (const ParameterSource& parameter : p.model.parameters()) parameters[parameter.name] = parameter.value;
     json_["stages"].push_back({{"name", p.name},
@@ -103,6 +104,7 @@ void GrowReport::pattern(const Run& run) {
                                {"length_unit", p.length_unit},
                                {"stepper", p.stepper->name},
                                {"seed", p.seed}});
+    if (!p.follows.empty()) json_["stages"].back()["follows"] = p.follows;
   }
   const Method& method = *run.program().method;
   const double density = finest / prevailing_edge(topology.triangles, world.space().control());

@@ -11,15 +11,20 @@
 
 namespace pelage {
 
+/// Tells people, and keeps for programs.
+inline void warn(const std::string& text, std::vector<std::string>& warnings) {
+  std::fprintf(stderr, "pelage: warning: %s\n", one_line(text).c_str());
+  warnings.push_back(text);
+}
+
 /// Writes the mesh to every path; warns of what is lost, and returns these warnings.
 template <class Mesh>
 std::vector<std::string> save_all(const Mesh& mesh, const std::vector<std::string>& paths, const SaveOptions& form) {
   std::vector<std::string> warnings;
   for (const std::string& path : paths) {
     save(mesh, path, form);
-    for (const std::string& loss : losses(mesh, extension_of(path))) warnings.push_back(path + ": " + loss);
+    for (const std::string& loss : losses(mesh, extension_of(path))) warn(path + ": " + loss, warnings);
   }
-  for (const std::string& text : warnings) std::fprintf(stderr, "pelage: warning: %s\n", one_line(text).c_str());
   return warnings;
 }
 

@@ -40,7 +40,7 @@ struct Attribute {
 };
 
 /// Whether the values are colours, which files hold encoded: "color" itself, "face_color" and "corner_color"
-/// beside it, "material_color", and the "input_color" of a coat.
+/// beside it, "color1", ... of glTF, "material_color", and the "input_color", ... of a coat.
 bool is_color(const Attribute& attribute);
 
 /// After interpolation: integers between which there is something now are doubles.

@@ -5,11 +5,14 @@
 #include <limits>
 
 #include "base/box.h"
+#include "base/suggest.h"
 #include "catalog/images.h"
 #include "catalog/marks.h"
+#include "catalog/missing_attribute.h"
 #include "catalog/names.h"
 #include "catalog/size.h"
 #include "react/place_values.h"
+#include "run/directions.h"
 #include "run/material.h"
 #include "run/random_points.h"
 
@@ -34,12 +37,29 @@ void require_uv(const TriangleMesh& shape, const std::vector<TextureFile>& textu
                 textures[0].name.where);
 }
 
+/// What layers know beside the attributes: the species, and what these hide.
+std::vector<std::string> names_of_look(std::vector<std::string> species, const std::vector<std::string>& known) {
+  for (const std::string& name : known)
+    if (std::ranges::count(species, name) > 0) species.push_back(input_name(name));
+  return species;
+}
+
 /// Fields, which have a dot in their names, are known to be there.
-void require_attributes(const std::vector<Symbol>& symbols, std::vector<std::string> known,
+void require_attributes(const std::vector<Symbol>& symbols, const TriangleMesh& shape, std::vector<std::string> known,
                         const std::vector<std::string>& more) {
   known.insert(known.end(), more.begin(), more.end());
   for (const Symbol& s : symbols)
-    if (s.kind == Symbol::Kind::attribute && s.name.find('.') == std::string::npos) require_attribute(s, known);
+    if (s.kind == Symbol::Kind::attribute && s.name.find('.') == std::string::npos && !matching_name(s.name, known))
+      throw missing_attribute(s, shape, known);
+}
+
+/// All that the formulas of a stage read from the place.
+std::vector<Symbol> symbols_of(const PlannedStage& stage) {
+  std::vector<Symbol> symbols = place_symbols(stage.model);
+  for (const auto* formula : {&stage.size_map, &stage.from, &stage.to})
+    if (*formula)
+      for (const Symbol& s : (*formula)->symbols()) symbols.push_back(s);
+  return symbols;
 }
 
 FieldWish bind_directions(const PlannedStage& planned, const MeshPlaces& places, double diagonal) {
@@ -79,6 +99,13 @@ StageProgram bind_stage(const PlannedStage& planned, const Program& program, dou
   if (asked.directions)
     s.directions = bind_directions(planned, {*program.shape, program.textures, s.length_unit, s.seed}, diagonal);
   return s;
+}
+
+void note_directions(const TriangleMesh& shape, StageProgram& s, std::vector<std::string>& warnings) {
+  if (!s.model.anisotropic()) return;
+  const FollowedDirections followed = followed_directions(shape, s.directions);
+  s.follows = followed.text;
+  if (!followed.warning.empty()) warnings.push_back(followed.warning);
 }
 
 /// Lowers the edges of the program to those that carry the patterns of its latest stage.
@@ -136,9 +163,9 @@ Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> ima
   require_uv(shape, plan.textures);
   const double diagonal = box_of(shape.points).diagonal();
   for (const PlannedStage& s : plan.stages)
-    require_attributes(place_symbols(s.model), known,
+    require_attributes(symbols_of(s), shape, known,
                        s.asked.points ? std::vector<std::string>{points_attribute} : std::vector<std::string>{});
-  require_attributes(plan.paint.symbols(), known, plan.paint.species);
+  require_attributes(plan.paint.symbols(), shape, known, names_of_look(plan.paint.species, known));
   if (!(diagonal > 0)) throw Error(Fault::input, "the shape has no extent: all its vertices are at one place");
   Program p;
   p.method = fitting_method(plan, shape, p.warnings);
@@ -151,6 +178,7 @@ Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> ima
   if (sizes_differ(plan, *p.method)) p.edges.assign(p.shape->points.size(), p.edge);
   for (const PlannedStage& s : plan.stages) {
     p.stages.push_back(bind_stage(s, p, diagonal));
+    note_directions(*p.shape, p.stages.back(), p.warnings);
     need_edges_of(s, *plan.quality, p);
   }
   // The shape itself needs some.

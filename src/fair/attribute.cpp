@@ -35,12 +35,15 @@ using Field = std::vector<Vector>;  ///< per component, values at the vertices
 const Attribute& find_attribute(const TriangleMesh& mesh, const std::string& name) {
   std::vector<std::string> names;
   for (const Attribute& a : mesh.attributes) names.push_back(a.name);
-  const Attribute* found = mesh.find(name);
-  if (!found && names.empty()) throw Error(Fault::usage, "the mesh has no attributes to smooth");
-  if (!found) throw Error(Fault::usage, unknown_name("attribute", name, names));
+  if (names.empty()) throw Error(Fault::usage, "the mesh has no attributes to smooth");
+  const std::string* known = matching_name(name, names);
+  if (!known) throw Error(Fault::usage, unknown_name("attribute", name, names));
+  const Attribute* found = mesh.find(*known);
   if (name == "normal") throw Error(Fault::usage, "normals follow from the vertices; fair the mesh itself");
   if (found->domain != Domain::vertex)
-    throw Error(Fault::usage, "the attribute \"" + name + "\" sits at the corners of triangles, not at the vertices");
+    throw Error(Fault::usage, "the attribute \"" + name + "\" sits at the " +
+                                  (found->domain == Domain::corner ? "corners of triangles" : "triangles") +
+                                  ", not at the vertices");
   return *found;
 }
 

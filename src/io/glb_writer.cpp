@@ -3,6 +3,7 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -13,6 +14,7 @@
 #include "base/ascii.h"
 #include "base/box.h"
 #include "base/random.h"
+#include "base/suggest.h"
 #include "io/gltf_document.h"
 #include "pelage/error.h"
 #include "shape/split_corners.h"
@@ -106,7 +108,7 @@ void add_custom(tinygltf::Model& model, tinygltf::Primitive& primitive, const At
     std::vector<float> values;
     for (std::size_t i = first; i < attribute.values.size(); i += attribute.components)
       for (int k = 0; k < width; ++k) values.push_back(static_cast<float>(attribute.values[i + k]));
-    const std::string suffix = width == attribute.components ? "" : "_" + std::to_string(first);
+    const std::string suffix = width == attribute.components ? "" : "_" + std::to_string(first + 1);
     primitive.attributes[custom_name(attribute.name + suffix, primitive)] = add_floats(model, values, width);
   }
 }
@@ -165,6 +167,22 @@ bool is_vector(const Attribute& a) {
   return a.components == 3 && (name == "normal" || name == "tangent" || name == "direction");
 }
 
+/// Directions whose components are attributes of their own stand up with the others: y becomes z, and z becomes -y.
+void stand_up_components(std::vector<Attribute>& attributes) {
+  std::vector<std::string> names;
+  for (const Attribute& a : attributes) names.push_back(a.components == 1 ? a.name : "");
+  const auto component = [&](const std::string& end) -> Attribute* {
+    const std::string* name = matching_name("direction_" + end, names);
+    return name ? &attributes[static_cast<std::size_t>(name - names.data())] : nullptr;
+  };
+  for (const auto& [first, second, third] : {std::array{"1", "2", "3"}, {"0", "1", "2"}, {"x", "y", "z"}}) {
+    Attribute *x = component(first), *y = component(second), *z = component(third);
+    if (!x || !y || !z || y->values.size() != z->values.size()) continue;
+    std::swap(y->values, z->values);
+    for (double& value : z->values) value = -value;
+  }
+}
+
 /// A quarter turn around x: what pointed along z points along y.
 void stand_up(TriangleMesh& mesh) {
   const auto turn = [](double* v) {
@@ -175,6 +193,7 @@ void stand_up(TriangleMesh& mesh) {
   for (Point& p : mesh.points) turn(p.data());
   for (Attribute& a : mesh.attributes)
     for (std::size_t i = 0; is_vector(a) && i < a.values.size(); i += 3) turn(a.values.data() + i);
+  stand_up_components(mesh.attributes);
 }
 
 /// The middle of the points if they are so far away that floats would lose more than a millionth of their extent.

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "base/ascii.h"
 #include "base/number.h"
 #include "base/suggest.h"
 #include "io/gltf_attributes.h"
@@ -75,6 +76,7 @@ struct Values {
   int components = 0;
   NumberType type = NumberType::float32;
   std::vector<double> values;
+  Point (*turn)(const GltfMatrix&, const Point&) = nullptr;  ///< how vectors follow the surface; nullptr for numbers
 };
 
 /// Vertices of a part without vertex colours.
@@ -83,7 +85,15 @@ struct Uncolored {
   std::array<double, 4> color;
 };
 
+const std::string direction_name = "direction";  ///< of vectors along the surface
+
 const std::array<double, 4> white = {1, 1, 1, 1};
+
+/// Names of colours have them here, and capitals in glTF.
+std::string in_small_letters(std::string name) {
+  for (char& c : name) c = to_lower(c);
+  return name;
+}
 
 /// The number behind a name like TEXCOORD_0.
 std::optional<std::size_t> set_number(const std::string& semantic, const std::string& name) {
@@ -107,6 +117,7 @@ class GltfReader {
     for (std::size_t n : scene.shown(shape_.findings)) add_node(scene, n);
     attributes_.complete(shape_.mesh.points.size());
     shape_.mesh.attributes = attributes_.take();
+    drop_incomplete_normals();
     fill_colors();
     object_.move_to(shape_.mesh.attributes, "object");
     material_.move_to(shape_.mesh.attributes, "material");
@@ -186,26 +197,39 @@ class GltfReader {
     if (shape_.mesh.points.size() + n * placement.matrices.size() > most) fail("has more than 2147483647 vertices");
     const std::vector<Point> points = morphed_points(primitive, weights);
     const std::vector<Values> values = values_of(primitive, weights);
+    if (!placement.skin) note_joints(primitive);
     std::size_t left_over = 0;
     const std::vector<std::uint32_t> corners = primitive.triangles(left_over);
     left_over_ += left_over;
     const bool skinned = placement.skin && has_weights(primitive);
     for (std::size_t copy = 0; copy < objects.size(); ++copy) {
       const std::size_t first = shape_.mesh.points.size();
-      const bool mirrored =
-          skinned ? add_skinned(primitive, *placement.skin, points) : add_points(points, placement.matrices[copy]);
+      const std::vector<GltfMatrix> matrices =
+          skinned ? skin_matrices(primitive, *placement.skin) : std::vector{placement.matrices[copy]};
+      const bool mirrored = add_points(points, matrices);
       add_faces(corners, first, mirrored);
       object_.add_faces(corners.size() / 3, objects[copy]);
       material_.add_faces(corners.size() / 3, material_label(primitive));
-      for (const Values& v : values) attributes_.append(v.name, v.components, v.type, first, v.values);
+      for (const Values& v : values) attributes_.append(v.name, v.components, v.type, first, placed(v, matrices));
       note_color(primitive, first);
     }
   }
 
-  /// Returns whether the surface is turned inside out.
-  bool add_points(const std::vector<Point>& points, const GltfMatrix& matrix) {
-    for (const Point& p : points) shape_.mesh.points.push_back(transformed(matrix, p));
-    return determinant3(matrix) < 0;
+  /// By one matrix for all, or one for each. Returns whether the surface is turned inside out.
+  bool add_points(const std::vector<Point>& points, const std::vector<GltfMatrix>& matrices) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      shape_.mesh.points.push_back(transformed(matrices[matrices.size() == 1 ? 0 : i], points[i]));
+    return !points.empty() && determinant3(matrices[0]) < 0;
+  }
+
+  static std::vector<double> placed(const Values& v, const std::vector<GltfMatrix>& matrices) {
+    std::vector<double> values = v.values;
+    for (std::size_t i = 0; v.turn && i < values.size() / 3; ++i) {
+      double* vector = values.data() + 3 * i;
+      const Point p = v.turn(matrices[matrices.size() == 1 ? 0 : i], {vector[0], vector[1], vector[2]});
+      std::copy(p.begin(), p.end(), vector);
+    }
+    return values;
   }
 
   void add_faces(const std::vector<std::uint32_t>& corners, std::size_t first, bool mirrored) {
@@ -266,6 +290,11 @@ class GltfReader {
 
   // --- skins ---
 
+  void note_joints(const GltfPrimitive& primitive) {
+    for (const auto& [semantic, accessor] : primitive.attributes())
+      if (set_number(semantic, "JOINTS_") || set_number(semantic, "WEIGHTS_")) left_out_.insert(semantic);
+  }
+
   bool has_weights(const GltfPrimitive& primitive) {
     const auto& all = primitive.attributes();
     if (all.contains("JOINTS_0") && all.contains("WEIGHTS_0")) return true;
@@ -273,7 +302,8 @@ class GltfReader {
     return false;
   }
 
-  bool add_skinned(const GltfPrimitive& primitive, const GltfSkin& skin, const std::vector<Point>& points) {
+  /// How the skin moves every vertex.
+  std::vector<GltfMatrix> skin_matrices(const GltfPrimitive& primitive, const GltfSkin& skin) {
     std::vector<std::pair<GltfAccessor, GltfAccessor>> sets;
     for (int s = 0; primitive.attributes().contains("JOINTS_" + std::to_string(s)) &&
                     primitive.attributes().contains("WEIGHTS_" + std::to_string(s));
@@ -283,13 +313,9 @@ class GltfReader {
       if (sets.back().first.components() != 4 || sets.back().second.components() != 4)
         fail(primitive.label() + " has joints or weights that are not VEC4");
     }
-    bool mirrored = false;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const GltfMatrix matrix = blended(primitive, skin, sets, i);
-      if (i == 0) mirrored = determinant3(matrix) < 0;
-      shape_.mesh.points.push_back(transformed(matrix, points[i]));
-    }
-    return mirrored;
+    std::vector<GltfMatrix> matrices;
+    for (std::size_t i = 0; i < primitive.vertices(); ++i) matrices.push_back(blended(primitive, skin, sets, i));
+    return matrices;
   }
 
   /// The joints' matrices by their weights, which are taken relative to their sum; without any, the first joint.
@@ -341,13 +367,20 @@ class GltfReader {
     note_textures(material);
     std::vector<Values> result;
     std::set<std::string> taken;
+    if (!primitive.attributes().contains("NORMAL")) {
+      ++without_normals_;
+      taken.insert("normal");
+    }
     for (const auto& [semantic, accessor] : primitive.attributes()) {
       std::string name = name_of(semantic, material);
       if (name.empty()) continue;
-      while (!taken.insert(name).second) name += '_';
       const GltfAccessor source = primitive.attribute(semantic);
+      if (is_color({in_small_letters(name), source.components(), Domain::vertex, {}})) name = in_small_letters(name);
+      while (!taken.insert(name).second) name += '_';
       Values v{name, source.components(), source.number_type(), morphed(primitive, semantic, weights)};
       if (const auto set = set_number(semantic, "TEXCOORD_")) turn_uv(primitive, v, *set, material);
+      if (v.components == 3) v.turn = turning(semantic, name);
+      if (semantic == "NORMAL" && v.components != 3) fail(primitive.label() + " has a NORMAL that is no VEC3");
       if (set_number(semantic, "COLOR_") && v.components != 3 && v.components != 4)
         fail(primitive.label() + " has a " + semantic + " that is no VEC3 or VEC4");
       result.push_back(std::move(v));
@@ -360,10 +393,23 @@ class GltfReader {
     if (const auto set = set_number(semantic, "COLOR_")) return *set == 0 ? "color" : "color" + std::to_string(*set);
     if (const auto set = set_number(semantic, "TEXCOORD_"))
       return *set == material.uv_set ? "uv" : "uv" + std::to_string(*set);
-    if (semantic.size() > 1 && semantic[0] == '_') return semantic.substr(1);
+    if (semantic == "NORMAL") return "normal";
+    if (const auto own = semantic.find_first_not_of('_'); own > 0 && own != std::string::npos)
+      return semantic.substr(own);
     if (semantic != "POSITION" && !set_number(semantic, "JOINTS_") && !set_number(semantic, "WEIGHTS_"))
       left_out_.insert(semantic);
     return "";
+  }
+
+  /// Directions are painted on the mesh as it lies in its own node. Blender's exporter turns points to y up, and leaves
+  /// vectors that it does not know.
+  Point (*turning(const std::string& semantic, const std::string& name))(const GltfMatrix&, const Point&) {
+    if (semantic == "NORMAL") return turned_normal;
+    if (!matching_name(name, {direction_name})) return nullptr;
+    const GltfJson* asset = document_.find(document_.root(), "asset");
+    if (!asset || document_.text(*asset, "generator").find("Blender") == std::string::npos) return turned;
+    ++from_blender_;
+    return [](const GltfMatrix& m, const Point& v) { return turned(m, {v[0], v[2], -v[1]}); };
   }
 
   void turn_uv(const GltfPrimitive& primitive, Values& v, std::size_t set, const GltfMaterial& material) const {
@@ -387,6 +433,13 @@ class GltfReader {
       uncolored_.push_back({first, first + primitive.vertices(), color});
     else if (color != white)
       ++tinted_;
+  }
+
+  /// Where parts have none, viewers make them, and none of the others are of use.
+  void drop_incomplete_normals() {
+    if (without_normals_ == 0) return;
+    if (std::erase_if(shape_.mesh.attributes, [](const Attribute& a) { return a.name == "normal"; }) > 0)
+      left_out_.insert("NORMAL");
   }
 
   /// Parts without vertex colours have the base colours of their materials.
@@ -426,13 +479,16 @@ class GltfReader {
          counted(unskinned_, "part") + " of skinned nodes without joints and weights; placed by the node");
     note("skin-weights", odd_weights_,
          counted(odd_weights_, "vertex") + " whose skin weights do not sum to 1; taken relative to their sum");
+    note("blender-directions", from_blender_,
+         "directions written by Blender, which leaves them with z up; turned as it turns the points");
     note("tinted-colors", tinted_,
          counted(tinted_, "part") +
              " whose vertex colours viewers multiply with a base colour; the vertex colours are kept as they are");
     ShortList names;
     for (const std::string& name : left_out_) names.add(name);
     note("left-out-attributes", left_out_.size(),
-         names.text() + ": left out" + (left_out_.contains("NORMAL") ? "; normals are those of the surface" : ""));
+         names.text() + ": left out" +
+             (left_out_.contains("NORMAL") ? ", since some parts have none; normals are those of the surface" : ""));
     report_textures();
     report_unused();
   }
@@ -477,7 +533,8 @@ class GltfReader {
   std::vector<Uncolored> uncolored_;
   std::set<std::string> left_out_, images_;
   ShortList target_names_;
-  std::size_t lines_ = 0, left_over_ = 0, targets_ = 0, unskinned_ = 0, odd_weights_ = 0, tinted_ = 0;
+  std::size_t lines_ = 0, left_over_ = 0, targets_ = 0, unskinned_ = 0, odd_weights_ = 0, tinted_ = 0,
+              without_normals_ = 0, from_blender_ = 0;
   bool other_uv_ = false;
 };
 

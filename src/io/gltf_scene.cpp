@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "shape/vectors.h"
+
 namespace pelage {
 
 GltfMatrix operator*(const GltfMatrix& a, const GltfMatrix& b) {
@@ -17,6 +19,21 @@ Point transformed(const GltfMatrix& m, const Point& p) {
   Point q;
   for (std::size_t k = 0; k < 3; ++k) q[k] = m[k] * p[0] + m[4 + k] * p[1] + m[8 + k] * p[2] + m[12 + k];
   return q;
+}
+
+Point turned(const GltfMatrix& m, const Point& v) {
+  Point q;
+  for (std::size_t k = 0; k < 3; ++k) q[k] = m[k] * v[0] + m[4 + k] * v[1] + m[8 + k] * v[2];
+  return q;
+}
+
+Point turned_normal(const GltfMatrix& m, const Point& n) {
+  const double sign = determinant3(m) < 0 ? -1 : 1;
+  const Point x{m[0], m[1], m[2]}, y{m[4], m[5], m[6]}, z{m[8], m[9], m[10]};
+  const Point yz = cross(y, z), zx = cross(z, x), xy = cross(x, y);  // the inverse transposed, times the determinant
+  Point q;
+  for (std::size_t k = 0; k < 3; ++k) q[k] = sign * (yz[k] * n[0] + zx[k] * n[1] + xy[k] * n[2]);
+  return unit(q);
 }
 
 double determinant3(const GltfMatrix& m) {

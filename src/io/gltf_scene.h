@@ -18,6 +18,10 @@ constexpr GltfMatrix gltf_identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 
 
 GltfMatrix operator*(const GltfMatrix& a, const GltfMatrix& b);
 Point transformed(const GltfMatrix& m, const Point& p);
+/// A vector along the surface.
+Point turned(const GltfMatrix& m, const Point& vector);
+/// The unit normal of the surface that the matrix makes of one with this normal; 0 where it makes it flat.
+Point turned_normal(const GltfMatrix& m, const Point& normal);
 /// Negative where the matrix turns a surface inside out.
 double determinant3(const GltfMatrix& m);
 /// translation * rotation * scale; the rotation is a quaternion x, y, z, w.

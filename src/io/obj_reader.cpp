@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <utility>
@@ -57,7 +59,7 @@ struct CornerList {
 
 class ObjReader {
  public:
-  ObjReader(std::string_view bytes, const std::string& path) : text_(bytes, path), path_(path) {}
+  ObjReader(std::string_view bytes, const std::string& path) : bytes_(bytes), text_(bytes, path), path_(path) {}
 
   RawShape read() {
     while (!text_.at_end()) {
@@ -65,6 +67,7 @@ class ObjReader {
       skip_statement();
     }
     add_colors();
+    add_polypaint();
     add_corner_list(uv_, "uv");
     add_corner_list(normal_, "normal");
     add_labels();
@@ -111,6 +114,7 @@ class ObjReader {
     std::size_t n = 0;
     for (; n < 3 && !text_.at_line_end(); ++n) extra[n] = text_.number("a colour");
     weights_ += n == 1 && extra[0] != 1;  // one more: the weight of a rational curve
+    extras_ += n == 2 || !text_.at_line_end();
     if (n < 3) return;
     colored_.push_back(static_cast<std::int32_t>(shape_.mesh.points.size() - 1));
     colors_.insert(colors_.end(), extra.begin(), extra.end());
@@ -181,6 +185,34 @@ class ObjReader {
     shape_.mesh.attributes.push_back(std::move(all));
   }
 
+  /// ZBrush writes what is painted into comments: "#MRGB" and for every vertex eight hexadecimal digits, of its mask,
+  /// red, green and blue.
+  void add_polypaint() {
+    constexpr std::string_view tag = "#MRGB";
+    std::vector<double> rgb, mask;
+    for (std::size_t at = bytes_.find(tag); at != std::string_view::npos; at = bytes_.find(tag, at)) {
+      at = std::min(bytes_.find_first_not_of(" \t", at + tag.size()), bytes_.size());
+      for (std::uint32_t mrgb = 0; is_word(bytes_.substr(at, 8), mrgb); at += 8) {
+        mask.push_back(mrgb >> 24);
+        for (const int shift : {16, 8, 0}) rgb.push_back(mrgb >> shift & 0xff);
+      }
+    }
+    if (mask.empty()) return;
+    if (mask.size() != shape_.mesh.points.size() || !colored_.empty())
+      return note("left-out",
+                  counted(mask.size(), "colour") + " in #MRGB comments, " +
+                      (colored_.empty() ? "not one for every vertex" : "beside those of the vertices") + "; left out",
+                  mask.size());
+    shape_.mesh.attributes.push_back(linear_color(std::move(rgb), 3, shape_.findings, NumberType::uint8));
+    if (std::ranges::any_of(mask, [](double m) { return m != 255; }))
+      shape_.mesh.attributes.push_back({"mask", 1, Domain::vertex, std::move(mask), NumberType::uint8});
+  }
+
+  static bool is_word(std::string_view digits, std::uint32_t& value) {
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+    return digits.size() == 8 && error == std::errc() && end == digits.data() + 8;
+  }
+
   void add_corner_list(CornerList& list, const char* name) {
     const PolygonMesh& mesh = shape_.mesh;
     if (&list == &normal_) drop_beyond(list);
@@ -247,6 +279,8 @@ class ObjReader {
 
   void report() {
     if (weights_ > 0) note("left-out", counted(weights_, "weight") + " of vertices; left out", weights_);
+    if (extras_ > 0)
+      note("left-out", counted(extras_, "vertex") + " with more numbers than x y z r g b; left out", extras_);
     if (depths_ > 0) note("left-out", counted(depths_, "third texture coordinate") + "; left out", depths_);
     if (uv_.size() > 0 && !shape_.mesh.find("uv")) note("left-out", "vt that no face refers to; left out", uv_.size());
     if (normal_.size() > 0 && !shape_.mesh.find("normal"))
@@ -268,6 +302,7 @@ class ObjReader {
     int line;
   };
 
+  std::string_view bytes_;
   TextScanner text_;
   const std::string& path_;
   RawShape shape_;
@@ -278,7 +313,7 @@ class ObjReader {
   double smooth_ = 0;
   bool smoothed_ = false;
   std::vector<double> smoothing_;
-  std::size_t weights_ = 0, depths_ = 0;
+  std::size_t weights_ = 0, depths_ = 0, extras_ = 0;
   std::map<std::string, Count> left_out_;
 };
 

@@ -280,11 +280,31 @@ class PlyReader {
       add(interleaved(joined.name, domain, element, columns, which));
       for (const int i : which) used[i] = 1;
     }
+    add_further_colors(element, domain, columns, used);
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const PlyProperty& property = element.properties[k];
       if (used[k] || property.list) continue;
       const NumberType type = type_that_holds(columns[k], property.type);
       add({property.name, 1, domain, std::move(columns[k]), type});
+    }
+  }
+
+  /// "input_color_red" and so on, as this program writes them.
+  void add_further_colors(const PlyElement& element, Domain domain, std::vector<std::vector<double>>& columns,
+                          std::vector<char>& used) {
+    const std::string red = "_red";
+    for (const PlyProperty& property : element.properties) {
+      if (!property.name.ends_with(red)) continue;
+      const std::string name = property.name.substr(0, property.name.size() - red.size());
+      std::vector<int> which;
+      for (const char* end : {"_red", "_green", "_blue", "_alpha"})
+        if (const int i = element.find(name + end); i >= 0 && !used[i] && !element.properties[i].list)
+          which.push_back(i);
+      if (which.size() < 3 || !is_color({name, static_cast<int>(which.size()), domain, {}})) continue;
+      Attribute color = interleaved("color", domain, element, columns, which);
+      color.name = name;
+      add(std::move(color));
+      for (const int i : which) used[i] = 1;
     }
   }
 
@@ -298,6 +318,9 @@ class PlyReader {
       for (std::size_t i = 0; i < column.size(); ++i) a.values[i * n + c] = column[i];
     }
     if (name != "color") return a;
+    const NumberType alpha = element.properties[which.back()].type;
+    for (std::size_t i = 3; n == 4 && i < a.values.size(); i += 4)
+      if (alpha != a.type) a.values[i] *= full_scale(a.type) / full_scale(alpha);
     return linear_color(std::move(a.values), a.components, shape_.findings, a.type, domain);
   }
 

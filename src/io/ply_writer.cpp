@@ -63,15 +63,17 @@ class Names {
 
   std::vector<std::string> of(const Attribute& a) {
     if (a.name == "normal" && a.components == 3) return {"nx", "ny", "nz"};
-    if (is_painted(a)) {
-      std::vector<std::string> names = {"red", "green", "blue"};
-      if (a.components == 4) names.emplace_back("alpha");
+    if (is_color(a)) {
+      std::vector<std::string> names = {"red", "green", "blue", "alpha"};
+      names.resize(static_cast<std::size_t>(a.components));
+      for (std::string& name : names)
+        if (!is_painted(a)) name = clean(a.name + "_" + name);
       return names;
     }
     if (a.name == "uv" && a.components == 2 && a.domain == Domain::vertex) return {"s", "t"};
     if (a.components == 1) return {clean(a.name)};
     std::vector<std::string> names;
-    for (int k = 0; k < a.components; ++k) names.push_back(clean(a.name + "_" + std::to_string(k)));
+    for (int k = 0; k < a.components; ++k) names.push_back(clean(a.name + "_" + std::to_string(k + 1)));
     return names;
   }
 

@@ -13,7 +13,8 @@ namespace pelage {
 ///   nx ny nz            "normal"
 ///   red green blue      uchar, sRGB, "color" (and alpha, linear, from a fourth component)
 ///   s t                 "uv": the names that Blender and three.js read
-///   NAME or NAME_0 ...  any other attribute; blanks become _, and a name that means something else to readers gets
+///   NAME_red ...        another colour: "input_color", "color1"
+///   NAME or NAME_1 ...  any other attribute; blanks become _, and a name that means something else to readers gets
 ///                       a _ at its end: u_, v_, x_
 /// each with the type of the attribute, all colours as uchar (sRGB). Faces: property list uchar int vertex_indices; the
 /// same properties per face but for s t; per corner lists: texcoord for "uv", NAME for others. Labels are comments:

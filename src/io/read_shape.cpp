@@ -95,6 +95,8 @@ std::vector<std::int32_t> vertices_of_corners(const TriangleMesh& mesh, std::siz
   return vertex;
 }
 
+bool is_normal(const Attribute& a) { return a.name == "normal" && a.components == 3; }
+
 ShapeFile mended(RawShape raw, const std::string& path) {
   ShapeFile file;
   file.findings = std::move(raw.findings);
@@ -102,7 +104,7 @@ ShapeFile mended(RawShape raw, const std::string& path) {
   clear_non_finite_attributes(raw.mesh.attributes, file.findings);
   auto source = std::make_shared<SourceShape>(SourceShape{raw.mesh, {}});
   const std::size_t corners = raw.mesh.corners.size();
-  std::erase_if(raw.mesh.attributes, [](const Attribute& a) { return a.name == "normal"; });  // surfaces have their own
+  std::erase_if(raw.mesh.attributes, is_normal);  // surfaces have their own
   raw.mesh.attributes.push_back(corner_numbers(corners));
   try {
     Triangulation cut = triangulate(std::move(raw.mesh), file.findings);

@@ -12,8 +12,7 @@ namespace pelage {
 namespace {
 
 double white_of(const std::vector<double>& values, NumberType type, std::vector<Finding>& findings) {
-  if (type == NumberType::uint8 || type == NumberType::int8) return 255;
-  if (type == NumberType::uint16 || type == NumberType::int16) return 65535;
+  if (const double full = full_scale(type); full > 1) return full;
   const auto brightest = std::ranges::max_element(values);
   if (brightest == values.end() || !(*brightest > 1)) return 1;
   if (!std::ranges::all_of(values, [](double x) { return x == std::floor(x); }))
@@ -23,6 +22,12 @@ double white_of(const std::vector<double>& values, NumberType type, std::vector<
 }
 
 }  // namespace
+
+double full_scale(NumberType type) {
+  if (type == NumberType::uint8 || type == NumberType::int8) return 255;
+  if (type == NumberType::uint16 || type == NumberType::int16) return 65535;
+  return 1;
+}
 
 Attribute linear_color(std::vector<double> values, int components, std::vector<Finding>& findings, NumberType type,
                        Domain domain) {

@@ -14,6 +14,9 @@ namespace pelage {
 Attribute linear_color(std::vector<double> values, int components, std::vector<Finding>& findings,
                        NumberType type = NumberType::float32, Domain domain = Domain::vertex);
 
+/// The number that stands for 1 in colours of that type: 255, 65535, or 1 where the values tell.
+double full_scale(NumberType type);
+
 /// Leaves out an alpha that is 1 everywhere.
 void drop_opaque_alpha(Attribute& color);
 

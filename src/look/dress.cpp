@@ -1,6 +1,7 @@
 #include "look/dress.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace pelage {
@@ -20,14 +21,41 @@ std::string attribute_name(std::string field) {
   return field;
 }
 
+/// The attributes of a coat and those that it finds.
+class CoatNames {
+ public:
+  CoatNames(const std::vector<Attribute>& attributes, const Paint& paint) : own_{"color"} {
+    for (const Attribute& a : attributes) given_.insert(a.name);
+    for (std::size_t i = 0; paint.fields && i < paint.species.size(); ++i)
+      own_.insert(attribute_name(paint.species[i]));
+  }
+  /// What makes room takes the place of another, which makes room in turn.
+  bool in_the_way(const std::string& name) const {
+    const std::string prefix = input_name("");
+    if (own_.contains(name)) return true;
+    const std::string before = name.starts_with(prefix) ? name.substr(prefix.size()) : "";
+    return given_.contains(before) && in_the_way(before);
+  }
+
+ private:
+  std::set<std::string> own_, given_;
+};
+
 }  // namespace
+
+void rename_input(std::vector<Attribute>& attributes, const Paint& paint) {
+  const CoatNames names(attributes, paint);
+  for (Attribute& a : attributes)
+    if (names.in_the_way(a.name)) a.name = input_name(a.name);
+}
 
 TriangleMesh dress(Tessellation t, const Paint& paint, const std::vector<char>& uniform) {
   std::vector<double> color = pelage::paint(t.samples, make_palette(paint, t.samples, uniform));
-  TriangleMesh mesh{std::move(t.samples.position), std::move(t.triangles), {}};
+  rename_input(t.attributes, paint);
+  TriangleMesh mesh{std::move(t.samples.position), std::move(t.triangles), {}, std::move(t.links)};
   mesh.set({"normal", 3, Domain::vertex, flattened(t.samples.normal)});
   mesh.set({"color", 3, Domain::vertex, std::move(color)});
-  for (std::size_t i = 0; i < t.samples.fields.size(); ++i)
+  for (std::size_t i = 0; paint.fields && i < t.samples.fields.size(); ++i)
     mesh.set({attribute_name(paint.species[i]), 1, Domain::vertex, std::move(t.samples.fields[i])});
   for (Attribute& a : t.attributes) mesh.set(std::move(a));
   return mesh;

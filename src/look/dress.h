@@ -5,8 +5,12 @@
 
 namespace pelage {
 
-/// The tessellation with "normal" (unit), "color" (linear light), one attribute per species, and the vertex and corner
-/// attributes of the shape. `uniform` as in CoatFields.
+/// Attributes of the shape make room for those of the coat: "color" and, where the paint has the fields in it, what is
+/// called as they are become "input_NAME". What was called so before gets another "input_" in front.
+void rename_input(std::vector<Attribute>& attributes, const Paint& paint);
+
+/// The tessellation with "normal" (unit), "color" (linear light), one attribute per species if the paint has them in
+/// it, and the attributes and links of the shape. `uniform` as in CoatFields.
 TriangleMesh dress(Tessellation tessellation, const Paint& paint, const std::vector<char>& uniform);
 
 /// All at once. Error(Fault::usage) for an unknown species or ramp, faults in layers, or a detail that needs too many

@@ -57,7 +57,11 @@ PaintLayer resolve_layer(const Layer& layer, const std::vector<std::string>& spe
 Places places_of(const CoatSamples& s, const std::vector<std::string>& species) {
   Places places{.positions = s.position, .normals = s.normal, .k1 = s.curvature.k1, .k2 = s.curvature.k2};
   for (const auto& [name, values] : s.attributes) places.attributes[name] = values;
-  for (std::size_t i = 0; i < species.size(); ++i) places.attributes[species[i]] = s.fields[i];
+  for (std::size_t i = 0; i < species.size(); ++i) {
+    const auto hidden = places.attributes.find(species[i]);
+    if (hidden != places.attributes.end()) places.attributes[input_name(species[i])] = hidden->second;
+    places.attributes[species[i]] = s.fields[i];
+  }
   places.length_unit = s.length_unit;
   return places;
 }
@@ -104,7 +108,7 @@ std::vector<Symbol> Paint::symbols() const {
 Paint resolve_paint(const Look& look, std::vector<std::string> species) {
   if (std::ranges::count(ramp_names(), look.ramp.value) == 0)
     throw Error(Fault::usage, unknown_name("ramp", look.ramp.value, ramp_names()), look.ramp.where);
-  Paint paint{std::move(species), 0, RampTable(named_ramp(look.ramp.value)), look.invert, {}};
+  Paint paint{std::move(species), 0, RampTable(named_ramp(look.ramp.value)), look.invert, look.fields, {}};
   for (const Layer& layer : look.layers) paint.layers.push_back(resolve_layer(layer, paint.species));
   paint.shown = shown_species(paint.species, look);
   return paint;

@@ -27,11 +27,15 @@ struct Paint {
   std::size_t shown = 0;             ///< the one whose values the ramp shows
   RampTable ramp;
   bool invert = false;
+  bool fields = true;              ///< whether the coat carries the species as attributes
   std::vector<PaintLayer> layers;  ///< the first one lowest
 
   /// What the layers read from the place, species and fields included.
   std::vector<Symbol> symbols() const;
 };
+
+/// By which layers know an attribute of the shape that is called like a species, and by which files of a coat hold it.
+inline std::string input_name(const std::string& name) { return "input_" + name; }
 
 /// Error(Fault::usage), located, for an unknown species, ramp or colour and for faults in the formulas of layers.
 Paint resolve_paint(const Look& look, std::vector<std::string> species);

@@ -20,15 +20,12 @@ constexpr double edges_per_wavelength = 12;
 constexpr std::size_t most_triangles = 1'500'000;
 /// More than this no memory holds.
 constexpr double most_triangles_asked = 3e7;
-/// What the colours of the shape are called in the coat.
-constexpr const char* input_color = "input_color";
 
-std::vector<Attribute> kept_attributes(std::vector<Attribute> attributes, const std::vector<std::string>& species) {
+std::vector<Attribute> kept_attributes(std::vector<Attribute> attributes) {
   std::vector<Attribute> kept;
   for (Attribute& a : attributes) {
     if (a.name == "normal") continue;                  // made anew
     if (a.name == "uv") a.type = NumberType::float32;  // between corners they are computed
-    rename_input(a, species);
     kept.push_back(std::move(a));
   }
   return kept;
@@ -66,11 +63,8 @@ Hierarchy levels_of(const CoatFields& fields, const TessellationRequest& request
 
 /// What the layers may read from the shape and its textures.
 VertexAttributes layer_attributes(const std::vector<Texture>& textures, const Tessellation& t) {
-  std::vector<Attribute> given = t.attributes;
-  for (Attribute& a : given)
-    if (a.name == input_color) a.name = "color";  // as formulas of stages know it
-  VertexAttributes attributes = scalar_attributes(given, t.triangles, t.samples.size());
-  for (const Attribute& uv : given)
+  VertexAttributes attributes = scalar_attributes(t.attributes, t.triangles, t.samples.size());
+  for (const Attribute& uv : t.attributes)
     for (const Texture& texture : textures)
       if (uv.name == "uv") attributes.merge(texture_attributes(texture, t.triangles, t.samples.size(), uv));
   return attributes;
@@ -89,7 +83,8 @@ class Tessellator {
     find_places(t.samples);
     add_fields(t.samples);
     if (request_.curvature) add_curvature(t.samples);
-    t.attributes = kept_attributes(fields_.shape->attributes, fields_.species);
+    t.attributes = kept_attributes(fields_.shape->attributes);
+    t.links = fields_.shape->links;
     for (Attribute& a : t.attributes) levels_.interpolate(a, 0, levels_.finest());
     if (request_.attributes) t.samples.attributes = layer_attributes(fields_.textures, t);
     t.samples.length_unit = fields_.length_unit;
@@ -163,11 +158,6 @@ class Tessellator {
 };
 
 }  // namespace
-
-void rename_input(Attribute& a, const std::vector<std::string>& species) {
-  if (a.name != "color" && std::ranges::count(species, a.name) == 0) return;
-  a.name = "input_" + a.name;
-}
 
 TessellationRequest tessellation_request(const Look& look) {
   if (look.keep_shape && look.detail.value_or(0) > 0)

@@ -10,7 +10,8 @@ namespace pelage {
 struct Tessellation {
   std::vector<Triangle> triangles;
   CoatSamples samples;                ///< at the vertices
-  std::vector<Attribute> attributes;  ///< of the shape, renamed where they would be in the way
+  std::vector<Attribute> attributes;  ///< of the shape but for its normals
+  std::vector<FileLink> links;        ///< of the shape
 };
 
 /// Which tessellation a look asks for.
@@ -26,9 +27,6 @@ struct TessellationRequest {
 /// What a look says of the geometry alone, and with what its paint reads.
 TessellationRequest tessellation_request(const Look& look);
 TessellationRequest tessellation_request(const Look& look, const Paint& paint);
-
-/// An attribute of the shape makes room for the coat: "color" and what is called as a species become "input_NAME".
-void rename_input(Attribute& attribute, const std::vector<std::string>& species);
 
 /// Error(Fault::usage) for a detail that needs more than 30 million triangles.
 Tessellation tessellate(const CoatFields& fields, const TessellationRequest& request);

@@ -1,12 +1,16 @@
 #include "run/directions.h"
 
+#include <algorithm>
 #include <array>
-#include <string>
+#include <cmath>
+#include <limits>
 
 #include "base/box.h"
 #include "base/suggest.h"
 #include "direction/direction_field.h"
 #include "pelage/error.h"
+#include "shape/finding.h"
+#include "shape/normals.h"
 #include "shape/scalar_attributes.h"
 #include "shape/vectors.h"
 
@@ -14,25 +18,79 @@ namespace pelage {
 
 namespace {
 
-/// The attribute as three components: in one, or in three as PLY files have them; DIRECTION counts as well.
-std::optional<std::array<std::vector<double>, 3>> given_directions(const TriangleMesh& shape) {
-  const VertexAttributes all = scalar_attributes(shape);
+/// A vector whose tangential part is a smaller share of it says nothing: normals of two programs differ by more.
+constexpr double least_tangent = 0.02;
+
+using Names = std::array<std::string, 3>;
+
+/// The attributes that hold a component each, set by set.
+std::vector<Names> component_names(const VertexAttributes& all) {
   std::vector<std::string> names;
   for (const auto& [name, values] : all) names.push_back(name);
+  std::vector<Names> sets;
   for (const auto& ends : {std::array{"_1", "_2", "_3"}, {"_0", "_1", "_2"}, {"_x", "_y", "_z"}}) {
-    std::array<std::vector<double>, 3> parts;
-    bool complete = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::string* name = matching_name(std::string(direction_attribute) + ends[k], names);
-      complete = complete && name;
-      if (complete) parts[k] = all.at(*name);
-    }
-    if (complete) return parts;
+    Names found;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const std::string* name = matching_name(std::string(direction_attribute) + ends[k], names)) found[k] = *name;
+    if (std::ranges::none_of(found, &std::string::empty)) sets.push_back(found);
   }
-  if (shape.find(direction_attribute))
-    throw Error(Fault::input, std::string("the attribute \"") + direction_attribute +
-                                  "\" of the mesh must be a vector of 3 components per vertex");
-  return std::nullopt;
+  return sets;
+}
+
+/// What a shape brings along.
+struct GivenDirections {
+  std::string name;            ///< of the attributes
+  std::vector<Point> vectors;  ///< per vertex; 0 where nothing is wished
+  std::size_t free = 0;        ///< so many vertices
+};
+
+/// The attribute that has them all, or their own names.
+std::string name_of(const Names& names, const TriangleMesh& shape) {
+  const std::string whole = names[0].substr(0, names[0].size() - 2);
+  return shape.find(whole) ? whole : names[0] + ", " + names[1] + ", " + names[2];
+}
+
+bool wishes(const Point& vector, const Point& normal) {
+  const double size = length(vector);
+  return std::isfinite(size) && length(cross(normal, vector)) > least_tangent * size;
+}
+
+std::size_t clear_free(std::vector<Point>& vectors, const TriangleMesh& shape) {
+  const std::vector<Point> normals = vertex_normals(shape.triangles, shape.points);
+  std::size_t free = 0;
+  for (std::size_t v = 0; v < vectors.size(); ++v) {
+    if (wishes(vectors[v], normals[v])) continue;
+    vectors[v] = {};
+    ++free;
+  }
+  return free;
+}
+
+/// Where the shape says nothing, the smoothest field between the vertices where it does.
+void complete(std::vector<Point>& directions, const Connection& c) {
+  std::vector<Guide> guides;
+  for (std::size_t v = 0; v < directions.size(); ++v)
+    if (length(directions[v]) > 0)
+      guides.push_back({static_cast<Index>(v), directions[v], std::numeric_limits<double>::infinity()});
+  const DirectionField field = direction_field(c, 2, guides);
+  for (std::size_t v = 0; v < directions.size(); ++v)
+    if (!(length(directions[v]) > 0)) directions[v] = field.direction[v];
+}
+
+std::optional<GivenDirections> given_directions(const TriangleMesh& shape) {
+  const VertexAttributes all = scalar_attributes(shape);
+  const std::vector<Names> sets = component_names(all);
+  if (sets.empty()) {
+    if (shape.find(direction_attribute))
+      throw Error(Fault::input, std::string("the attribute \"") + direction_attribute +
+                                    "\" of the mesh must be a vector of 3 components per vertex");
+    return std::nullopt;
+  }
+  GivenDirections given{name_of(sets[0], shape), {}};
+  const auto &x = all.at(sets[0][0]), &y = all.at(sets[0][1]), &z = all.at(sets[0][2]);
+  for (std::size_t v = 0; v < x.size(); ++v) given.vectors.push_back({x[v], y[v], z[v]});
+  given.free = clear_free(given.vectors, shape);
+  return given;
 }
 
 std::vector<Point> directions(const TriangleMesh& shape, const std::optional<FieldWish>& wish,
@@ -43,10 +101,19 @@ std::vector<Point> directions(const TriangleMesh& shape, const std::optional<Fie
     const double diagonal = box_of(shape.points).diagonal();
     return direction_field(c, 2, find_guides(wish.value_or(FieldWish{}), c, shape.points, diagonal)).direction;
   }
-  const auto& [x, y, z] = *given;
   std::vector<Point> list;
-  for (std::size_t i = 0; i < x.size(); ++i) list.push_back(unit({x[i], y[i], z[i]}));
+  for (const Point& d : given->vectors) list.push_back(unit(d));
+  if (given->free > 0) complete(list, make_connection(topology, shape.points));
   return list;
+}
+
+/// The names of all sets behind the first `used`.
+std::string not_followed(const TriangleMesh& shape, std::size_t used) {
+  const std::vector<Names> sets = component_names(scalar_attributes(shape));
+  std::string text;
+  for (std::size_t s = used; s < sets.size(); ++s)
+    text += "; " + name_of(sets[s], shape) + " of the shape: not followed";
+  return text;
 }
 
 }  // namespace
@@ -56,6 +123,34 @@ std::vector<Tensor> vertex_lines(const TriangleMesh& shape, const std::optional<
   std::vector<Tensor> lines;
   for (const Point& d : directions(shape, wish, topology)) lines.push_back(line_tensor(d));
   return lines;
+}
+
+std::vector<std::string> direction_attributes(const TriangleMesh& shape) {
+  std::vector<std::string> names;
+  for (const Names& set : component_names(scalar_attributes(shape))) {
+    const std::string whole = name_of(set, shape);
+    if (shape.find(whole))
+      names.push_back(whole);
+    else
+      names.insert(names.end(), set.begin(), set.end());
+  }
+  return names;
+}
+
+FollowedDirections followed_directions(const TriangleMesh& shape, const std::optional<FieldWish>& wish) {
+  const std::string smoothest = "the smoothest field of lines";
+  if (wish) return {"the directions of the recipe" + not_followed(shape, 0), ""};
+  const auto given = given_directions(shape);
+  if (!given) return {smoothest, ""};
+  if (given->free == given->vectors.size())
+    return {smoothest, given->name +
+                           " of the shape says nothing: it is 0, not finite or along the normal everywhere; " +
+                           smoothest + " takes its place"};
+  std::string text = given->name + " of the shape";
+  if (given->free > 0)
+    text += "; " + std::to_string(given->free) + " of " + counted(given->vectors.size(), "vertex") +
+            " without a direction get the smoothest field between the others";
+  return {text + not_followed(shape, 1), ""};
 }
 
 }  // namespace pelage

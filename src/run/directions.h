@@ -2,6 +2,7 @@
 // The direction field of a stage with anisotropic diffusion.
 
 #include <optional>
+#include <string>
 
 #include "direction/guides.h"
 #include "discretise/anisotropy.h"
@@ -9,9 +10,22 @@
 
 namespace pelage {
 
-/// Lines d d' at the vertices of the shape: those of the wish, or else of its attribute "direction", or else of its
-/// smoothest field of lines. Error(Fault::input) for an attribute of another size.
+/// Lines d d' at the vertices of the shape: those of the wish; or else those that the shape brings along, as a vector
+/// "direction" per vertex or three numbers "direction_1", "_2", "_3", or "_0", "_1", "_2", or "_x", "_y", "_z", in any
+/// case; or else its smoothest field of lines. A vertex whose vector is 0, not finite or along the normal wishes
+/// nothing: there the field is the smoothest one between the others. Error(Fault::input) for a "direction" of other
+/// components; errors of direction_field.
 std::vector<Tensor> vertex_lines(const TriangleMesh& shape, const std::optional<FieldWish>& wish,
                                  const Topology& topology);
+
+/// What vertex_lines follows, a line for people each.
+struct FollowedDirections {
+  std::string text;     ///< "direction_x, direction_y, direction_z of the shape", ...
+  std::string warning;  ///< of directions of the shape that say nothing; or empty
+};
+FollowedDirections followed_directions(const TriangleMesh& shape, const std::optional<FieldWish>& wish);
+
+/// All attributes of a shape that hold directions or a component of them.
+std::vector<std::string> direction_attributes(const TriangleMesh& shape);
 
 }  // namespace pelage

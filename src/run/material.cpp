@@ -76,9 +76,10 @@ TriangleMesh shape_now(const Program& program, const World& world) {
 std::vector<Texture> textures_read(const std::vector<Symbol>& symbols, const std::vector<Texture>& textures) {
   std::vector<Texture> read;
   for (const Texture& texture : textures) {
-    const auto names = color_names(texture.name);
+    const auto all = color_names(texture.name);
+    const std::vector<std::string> names(all.begin(), all.end());
     if (std::ranges::any_of(symbols, [&](const Symbol& s) {
-          return s.kind == Symbol::Kind::attribute && std::ranges::count(names, s.name) > 0;
+          return s.kind == Symbol::Kind::attribute && matching_name(s.name, names);
         }))
       read.push_back(texture);
   }

@@ -36,6 +36,7 @@ struct StageProgram {
   double suggested_step = 0;
   bool excluded = false;                ///< what the model holds is cut out: no flux passes its border
   std::optional<FieldWish> directions;  ///< of anisotropic diffusion; default: attribute "direction", or the smoothest
+  std::string follows;                  ///< what its directions follow, for people; empty without anisotropic diffusion
   std::optional<double> points;         ///< spacing of the random points that attribute(points) tells the distance to
   double until = 0;                     ///< model time
   std::optional<std::int64_t> steps;

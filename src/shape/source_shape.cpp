@@ -122,7 +122,8 @@ PolygonMesh as_in_file(const SourceShape& source, const TriangleMesh& mesh) {
   for (const Attribute& a : mesh.attributes)
     if (a.domain == Domain::vertex) result.set(gathered(at_corners(a, vertex), source.polygons));
   const Attribute* normal = source.polygons.find("normal");
-  if (normal && !mesh.find("normal") && normal->domain != Domain::face && result.points != source.polygons.points)
+  if (normal && normal->components == 3 && !mesh.find("normal") && normal->domain != Domain::face &&
+      result.points != source.polygons.points)
     result.set(renewed_normals(*normal, result, vertex));
   return result;
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/ascii.h"
 #include "pelage/polygon_mesh.h"
 
 namespace pelage {
@@ -29,8 +30,12 @@ const char* name_of(NumberType type) {
 }
 
 bool is_color(const Attribute& a) {
-  static constexpr std::string_view names[] = {"color", "face_color", "corner_color", "material_color", "input_color"};
-  return std::ranges::count(names, a.name) > 0 && (a.components == 3 || a.components == 4);
+  static constexpr std::string_view names[] = {"face_color", "corner_color", "material_color"}, input = "input_",
+                                    set = "color";
+  std::string_view name = a.name;
+  while (name.starts_with(input)) name.remove_prefix(input.size());
+  const bool numbered = name.starts_with(set) && std::all_of(name.begin() + set.size(), name.end(), is_digit);
+  return (numbered || std::ranges::count(names, name) > 0) && (a.components == 3 || a.components == 4);
 }
 
 void widen(Attribute& a) {

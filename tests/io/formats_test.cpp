@@ -9,6 +9,7 @@
 #include "base/srgb.h"
 #include "io/written_meshes.h"
 #include "pelage/io.h"
+#include "shape/scalar_attributes.h"
 
 namespace pelage {
 namespace {
@@ -86,6 +87,50 @@ TEST(Formats, PlyKeepsEveryTypeEverywhereToTheLastBit) {
   EXPECT_TRUE(file.findings.empty());
 }
 
+Attribute colors(const PolygonMesh& mesh, Domain domain, int components = 3) {
+  Attribute a{"color", components, domain, {}, NumberType::uint8};
+  for (std::size_t i = 0; i < tuples(mesh, domain); ++i)
+    for (int k = 0; k < components; ++k)
+      a.values.push_back(k == 3 ? 200 / 255.0 : linear_from_srgb(static_cast<double>(8 * i + 80 * k) / 255));
+  return a;
+}
+
+/// Colours beside "color" come back as colours, under their names.
+TEST(Formats, FurtherColoursStayColours) {
+  PolygonMesh mesh = roof();
+  for (const char* name : {"color1", "input_color", "input_input_color"}) {
+    Attribute a = colors(mesh, Domain::vertex, name[0] == 'c' ? 4 : 3);
+    a.name = name;
+    mesh.set(a);
+  }
+  Attribute material = colors(mesh, Domain::face);
+  material.name = "material_color";
+  mesh.set(material);
+  for (const std::string extension : {".ply", ".glb"}) {
+    const PolygonMesh back = read_shape_bytes(mesh_bytes(mesh, extension), "a" + extension).source->polygons;
+    for (const Attribute& a : mesh.attributes) {
+      if (extension == ".glb" && a.domain == Domain::face) continue;
+      const Attribute* b = back.find(a.name);
+      ASSERT_TRUE(b) << a.name << extension;
+      EXPECT_TRUE(is_color(*b));
+      ASSERT_EQ(b->values.size(), a.values.size()) << a.name << extension;
+      for (std::size_t i = 0; i < a.values.size(); ++i)
+        EXPECT_NEAR(b->values[i], a.values[i], extension == ".ply" ? 1e-12 : 1e-7) << a.name << extension;
+    }
+  }
+}
+
+/// Formulas call the components of a vector alike whatever file they come from.
+TEST(Formats, ComponentsOfVectorsHaveOneName) {
+  PolygonMesh mesh = roof();
+  mesh.set(attribute(mesh, "flow", 3, Domain::vertex, NumberType::float32));
+  const TriangleMesh given = read_shape_bytes(mesh_bytes(mesh, ".glb"), "a.glb").mesh;
+  const TriangleMesh back = read_shape_bytes(mesh_bytes(mesh, ".ply"), "a.ply").mesh;
+  const VertexAttributes from_glb = scalar_attributes(given), from_ply = scalar_attributes(back);
+  for (const char* end : {"_1", "_2", "_3"})
+    EXPECT_EQ(from_ply.at(std::string("flow") + end), from_glb.at(std::string("FLOW") + end)) << end;
+}
+
 /// The bytes of an array, decoded with a table of its own.
 std::string vtp_array(const std::string& vtp, const std::string& type, const std::string& name) {
   const std::size_t tag = vtp.find("type=\"" + type + "\" Name=\"" + name + "\"");
@@ -150,15 +195,51 @@ TEST(Formats, VtpKeepsEveryTypeToTheLastBit) {
   EXPECT_EQ(vtp_array(vtp, "Int32", "offsets"), bytes_of<std::int32_t>(ends));
 }
 
-// --- the table ---
-
-Attribute colors(const PolygonMesh& mesh, Domain domain, int components = 3) {
-  Attribute a{"color", components, domain, {}, NumberType::uint8};
-  for (std::size_t i = 0; i < tuples(mesh, domain); ++i)
-    for (int k = 0; k < components; ++k)
-      a.values.push_back(k == 3 ? 200 / 255.0 : linear_from_srgb(static_cast<double>(8 * i + 80 * k) / 255));
-  return a;
+/// What eight bits a channel of sRGB say of the colours that a file gives back.
+std::vector<double> read_back_bytes(const TriangleMesh& coat, const std::string& extension) {
+  const std::string bytes = mesh_bytes(coat, extension);
+  std::vector<double> values;
+  if (extension == ".vtp") {
+    for (const char c : vtp_array(bytes, "UInt8", "RGB")) values.push_back(static_cast<unsigned char>(c));
+    return values;
+  }
+  const TriangleMesh back = read_shape_bytes(bytes, "a" + extension).mesh;
+  EXPECT_EQ(back.points, coat.points) << extension;
+  for (const double light : back.find("color")->values) values.push_back(255 * srgb_from_linear(light));
+  return values;
 }
+
+/// One coat, one colour: every format says it in its own way, linear or sRGB, as bytes, floats or text, and the one
+/// that cannot says so.
+TEST(Formats, AllSayTheSameColourWithinHalfAByte) {
+  TriangleMesh coat;
+  constexpr std::int32_t n = 17;
+  Attribute color{"color", 3, Domain::vertex, {}};
+  for (std::int32_t j = 0; j < n; ++j)
+    for (std::int32_t i = 0; i < n; ++i) {
+      coat.points.push_back({static_cast<double>(i), static_cast<double>(j), 0});
+      for (const double painted : {i / 16.0, j / 16.0, (i + n * j) / 288.0})
+        color.values.push_back(linear_from_srgb(painted));
+      const std::int32_t a = i + n * j;
+      if (i + 1 < n && j + 1 < n)
+        coat.triangles.insert(coat.triangles.end(), {{a, a + 1, a + n}, {a + 1, a + n + 1, a + n}});
+    }
+  coat.set(color);
+  for (const std::string& extension : mesh_extensions()) {
+    const std::vector<std::string> lost = losses(coat, extension);
+    if (!lost.empty()) {
+      EXPECT_EQ(extension, ".stl");
+      EXPECT_NE(lost[0].find("cannot hold color"), std::string::npos);
+      continue;
+    }
+    const std::vector<double> bytes = read_back_bytes(coat, extension);
+    ASSERT_EQ(bytes.size(), color.values.size()) << extension;
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+      EXPECT_NEAR(bytes[i], 255 * srgb_from_linear(color.values[i]), 0.5001) << extension << ' ' << i;
+  }
+}
+
+// --- the table ---
 
 Attribute labelled(const PolygonMesh& mesh, const std::string& name) {
   Attribute a{name, 1, Domain::face, {}, NumberType::int32, {"", "left half", "right"}};

@@ -108,6 +108,8 @@ TEST(GlbWriter, TurnedUpright) {
     for (std::size_t v = 0; v < n; ++v) a.values.insert(a.values.end(), {0, 0, 1});
     mesh.attributes.push_back(a);
   }
+  for (const auto& [name, value] : {std::pair{"direction_x", 1}, {"direction_y", 2}, {"direction_z", 3}})
+    mesh.attributes.push_back({name, 1, Domain::vertex, std::vector<double>(n, value)});
   const std::string bytes = encode_glb(mesh, {.up = UpAxis::z});
   const TriangleMesh back = test::raw_mesh(read_gltf(bytes, "a.glb"));
   EXPECT_EQ(back.points[0], (Point{1, 3, -2}));
@@ -117,6 +119,9 @@ TEST(GlbWriter, TurnedUpright) {
     return std::vector<double>(v.begin(), v.begin() + 3);
   };
   EXPECT_EQ(first("DIRECTION"), (std::vector<double>{0, 1, 0}));
+  EXPECT_EQ(first("DIRECTION_X")[0], 1);
+  EXPECT_EQ(first("DIRECTION_Y")[0], 3);
+  EXPECT_EQ(first("DIRECTION_Z")[0], -2);
   EXPECT_EQ(first("VELOCITY"), (std::vector<double>{0, 0, 1}));  // of axes that we do not know
   EXPECT_EQ(test::raw_mesh(read_gltf(encode_glb(mesh), "a.glb")).points[0], (Point{1, 2, 3}));
 }

@@ -8,6 +8,7 @@
 #include "io/read_text.h"
 #include "pelage/io.h"
 #include "shape/describe.h"
+#include "shape/vectors.h"
 
 namespace pelage {
 namespace {
@@ -422,7 +423,60 @@ TEST(GltfAttributes, KeepTheirNamesAndTypes) {
   EXPECT_EQ(attribute(shape, "ID").type, NumberType::uint32);
   EXPECT_EQ(attribute(shape, "DIRECTION").type, NumberType::float32);
   EXPECT_EQ(attribute(shape, "DIRECTION").components, 3);
-  expect_finding(shape, "left-out-attributes", "NORMAL, TANGENT: left out; normals are those of the surface");
+  expect_finding(shape, "left-out-attributes", "TANGENT: left out");
+}
+
+/// A triangle in a node that turns, scales unevenly and mirrors it: the normal stays across its edges, outside where it
+/// was outside, and the direction stays along its edge.
+TEST(GltfAttributes, NormalsAndDirectionsTurnWithTheirNode) {
+  for (const char* scale : {"1,1,1", "2,3,5", "-2,3,5"}) {
+    GlbBuilder file;
+    const std::vector<float> corners = {0, 0, 0, 1, 0, 0.5, 0, 1, 0.25};
+    file.array("VEC3", corners);
+    file.array("VEC3", std::vector<float>{-0.5, -0.25, 1, -0.5, -0.25, 1, -0.5, -0.25, 1});
+    file.array("VEC3", std::vector<float>{1, 0, 0.5, 1, 0, 0.5, 1, 0, 0.5});
+    const RawShape shape = read(file.file(
+        std::string(R"("nodes":[{"mesh":0,"translation":[7,8,9],"rotation":[0.5,0.5,-0.5,0.5],"scale":[)") + scale +
+        R"(]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":1,"_DIRECTION":2}}]}])"));
+    const std::vector<Point>& p = shape.mesh.points;
+    const std::vector<std::int32_t>& c = shape.mesh.corners;
+    const auto edge = [&](std::size_t a, std::size_t b) { return difference(p[b], p[a]); };
+    const auto at = [&](int i) { return static_cast<std::size_t>(c[static_cast<std::size_t>(i)]); };
+    const Point outside = unit(cross(edge(at(0), at(1)), edge(at(0), at(2))));
+    const std::vector<double>&normal = attribute(shape, "normal").values,
+          &direction = attribute(shape, "DIRECTION").values;
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(normal[k], outside[k], 1e-6) << scale;
+      EXPECT_NEAR(direction[k], edge(0, 1)[k], 1e-6) << scale;
+    }
+  }
+}
+
+/// Blender's exporter makes points stand, x z -y, and leaves directions, and puts another _ before their names.
+TEST(GltfAttributes, DirectionsOfBlenderStandAsItsPointsDo) {
+  GlbBuilder file;
+  file.array("VEC3", triangle);
+  file.array("VEC3", std::vector<float>{1, 2, 3, 1, 2, 3, 1, 2, 3});
+  std::string bytes =
+      file.file(R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"__DIRECTION":1}}]}])");
+  EXPECT_EQ(attribute(read(bytes), "DIRECTION").values, (std::vector<double>{1, 2, 3, 1, 2, 3, 1, 2, 3}));
+  bytes = file.file(
+      R"("asset":{"version":"2.0","generator":"Khronos glTF Blender I/O v3.4"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[
+      {"attributes":{"POSITION":0,"__DIRECTION":1}}]}])");
+  const RawShape shape = read(bytes);
+  EXPECT_EQ(attribute(shape, "DIRECTION").values, (std::vector<double>{1, 3, -2, 1, 3, -2, 1, 3, -2}));
+  expect_finding(shape, "blender-directions", "z up");
+}
+
+/// What a file says of its normals comes back with its form.
+TEST(GltfAttributes, NormalsComeBackWithTheForm) {
+  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}};
+  mesh.set({"normal", 3, Domain::vertex, {0, 0, 1, 1, 0, 0, 0, 1, 0}});
+  const std::string bytes = mesh_bytes(mesh, ".glb");
+  const ShapeFile file = read_shape_bytes(bytes, "a.glb");
+  EXPECT_TRUE(file.findings.empty());
+  EXPECT_FALSE(file.mesh.find("normal"));
+  EXPECT_EQ(mesh_bytes(as_in_file(*file.source, file.mesh), ".glb"), bytes);
 }
 
 TEST(GltfAttributes, OfFewerComponentsInTheFirstPart) {

@@ -1,5 +1,7 @@
 #include "io/obj_reader.h"
 
+#include <algorithm>
+
 #include "base/srgb.h"
 #include "io/read_text.h"
 
@@ -12,6 +14,25 @@ std::string findings(const RawShape& shape) {
   std::string kinds;
   for (const Finding& f : shape.findings) kinds += (kinds.empty() ? "" : " ") + f.kind;
   return kinds;
+}
+
+TEST(ObjReader, ReadsWhatZBrushPaintsIntoComments) {
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const RawShape shape = read(triangle + "# The MRGB block\n#MRGB ffff0000ff00ff33\r\n#MRGB 800000ff\n");
+  ASSERT_EQ(shape.mesh.attributes.size(), 2U);
+  EXPECT_EQ(shape.mesh.find("color")->values, (std::vector<double>{1, 0, 0, 0, 1, linear_from_srgb(0.2), 0, 0, 1}));
+  EXPECT_EQ(shape.mesh.find("mask")->values, (std::vector<double>{255, 255, 128}));
+  EXPECT_EQ(read(triangle + "#MRGB ffff0000ff00ff33ff0000ff\n").mesh.attributes.size(), 1U);
+  EXPECT_EQ(findings(read(triangle + "#MRGB ffff0000 nothing\n")), "left-out");
+  EXPECT_EQ(findings(read("v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n#MRGB ff000000ff000000ff000000\n")),
+            "left-out");
+}
+
+TEST(ObjReader, SaysWhatItDoesNotTakeOfVertices) {
+  const RawShape shape = read_obj("v 0 0 0 1 0 0 0.5\nv 1 0 0 1 0 0 0.5\nv 0 1 0 0.2 0.3\nf 1 2 3\n", "a.obj");
+  const auto said =
+      std::ranges::find(shape.findings, "3 vertices with more numbers than x y z r g b; left out", &Finding::text);
+  EXPECT_NE(said, shape.findings.end());
 }
 
 TEST(ObjReader, VerticesFacesAndLines) {

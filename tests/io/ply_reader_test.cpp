@@ -39,6 +39,22 @@ const std::string triangle_ascii =
     "ply\nformat ascii 1.0\ncomment x\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
     "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0.1\n3 0 1 2\n";
 
+/// Floats of colours beside a byte of alpha, and the other way round.
+TEST(PlyReader, AlphaOfAnotherType) {
+  const auto color = [](const std::string& of_color, const std::string& of_alpha, const std::string& values) {
+    const RawShape shape = read_ply(
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+        "property float z\nproperty " +
+            of_color + " red\nproperty " + of_color + " green\nproperty " + of_color + " blue\nproperty " + of_alpha +
+            " alpha\nend_header\n0 0 0 " + values + "\n",
+        "a.ply");
+    return shape.mesh.find("color")->values;
+  };
+  const double half = linear_from_srgb(0.5), byte = linear_from_srgb(51 / 255.0);
+  EXPECT_EQ(color("float", "uchar", "0.5 1 0 51"), (std::vector<double>{half, 1, 0, 0.2}));
+  EXPECT_EQ(color("uchar", "float", "51 255 0 0.2"), (std::vector<double>{byte, 1, 0, 0.2}));
+}
+
 TEST(PlyReader, Ascii) {
   const RawShape shape = read(triangle_ascii);
   EXPECT_EQ(shape.mesh.points[2], (Point{0, 1, 0.1}));

@@ -47,7 +47,7 @@ TEST(PlyWriter, NamesThatMeanSomethingElseAreMarked) {
   EXPECT_EQ(back.find("uv"), nullptr);
   for (const char* name : {"u_", "v_", "x_", "red_", "a_b", "a-b", "a_b_"})
     EXPECT_EQ(back.find(name)->values, (std::vector<double>{1, 2, 3, 4})) << name;
-  EXPECT_EQ(back.find("flow_1")->values, (std::vector<double>{2, 4, 6, 8}));
+  EXPECT_EQ(back.find("flow_2")->values, (std::vector<double>{2, 4, 6, 8}));
 }
 
 TEST(PlyWriter, SizeIsWhatTheHeaderPromises) {

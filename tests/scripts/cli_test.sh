@@ -418,6 +418,25 @@ same_form() {  # ignores what may differ: colours behind v, normals, and the num
     <(sed -E 's/^(v [^ ]+ [^ ]+ [^ ]+).*/\1/; /^(#|vn|vt|mtllib)/d; s:/[0-9]*(/[0-9]*)?::g' "$2" | sort) >/dev/null &&
     [ "$(grep -c '^vt ' "$1")" -eq "$(grep -c '^vt ' "$2")" ]
 }
+# Without fields: the coat's colour, and what the shape had under its own name, also where a species is called so.
+succeed grow $sphere "${quick[@]}" -o with.ply
+succeed grow with.ply "${quick[@]}" --no-fields -o without.ply
+[ "$(grep -ac '^property float [ab]$' without.ply)" -eq 2 ] || fail "--no-fields lost attributes of the shape"
+[ "$(grep -ac 'input_[ab]$' without.ply)" -eq 0 ] || fail "--no-fields renamed what had room"
+succeed grow $sphere "${quick[@]}" --no-fields -o bare.obj
+grep -q 'cannot hold' stderr && fail "--no-fields: OBJ still warns: $(cat stderr)"
+
+# Directions of a shape: said which, by lines and by JSON; replaced by pelage field with a warning.
+succeed field $sphere -o directed.ply
+succeed grow directed.ply --model witkin-kass-stripes "${quick[@]}" -o striped.ply
+grep -q '^following direction_1, direction_2, direction_3 of the shape' stdout || fail "no word of the directions"
+succeed grow directed.ply --model witkin-kass-stripes "${quick[@]}" --json -o striped.ply
+json 'd["stages"][0]["follows"].startswith("direction_1")'
+succeed field directed.ply --axis 0,0,1 --json -o again.ply
+json 'd["warnings"] == ["the new field takes the place of direction_1, direction_2, direction_3 of the shape"]'
+[ "$(grep -ac 'direction' again.ply)" -eq 3 ] || fail "pelage field left old directions beside the new ones"
+succeed fair directed.ply --attribute DIRECTION_1 --steps 1 -o even.ply
+
 succeed grow cube.obj --size 0.3 --steps 2 --keep-shape -o kept.obj,kept.stl
 same_form cube.obj kept.obj || fail "--keep-shape changed the form of the file"
 grep -q 'kept.stl: STL cannot hold .*color' stderr || fail "the loss of the coat is not said"

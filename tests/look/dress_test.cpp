@@ -1,0 +1,72 @@
+#include "look/dress.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace pelage {
+namespace {
+
+Attribute number(const std::string& name) { return {name, 1, Domain::vertex, {1, 2, 3}}; }
+
+std::vector<std::string> names(const std::vector<Attribute>& attributes) {
+  std::vector<std::string> list;
+  for (const Attribute& a : attributes) list.push_back(a.name);
+  std::ranges::sort(list);
+  return list;
+}
+
+/// A triangle with the fields "large.b" and "b", whose shape had these attributes.
+Tessellation triangle(const std::vector<std::string>& attributes) {
+  Tessellation t;
+  t.triangles = {{0, 1, 2}};
+  t.samples.position = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  t.samples.normal = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+  t.samples.fields = {{1, 2, 3}, {4, 5, 6}};
+  for (const std::string& name : attributes) t.attributes.push_back(number(name));
+  t.links = {{"TextureFile", "skin.png"}};
+  return t;
+}
+
+Paint paint_with(bool fields) {
+  Look look;
+  look.fields = fields;
+  return resolve_paint(look, {"large.b", "b"});
+}
+
+/// A coat may be the shape of the next one: what each of them found stays, one "input_" further.
+TEST(Dress, EveryAttributeOfTheShapeStays) {
+  const TriangleMesh coat =
+      dress(triangle({"color", "b", "input_color", "large_b", "mask", "input_input_color", "input_mask"}),
+            paint_with(true), {0, 0});
+  EXPECT_EQ(
+      names(coat.attributes),
+      (std::vector<std::string>{"b", "color", "input_b", "input_color", "input_input_color", "input_input_input_color",
+                                "input_large_b", "input_mask", "large_b", "mask", "normal"}));
+  ASSERT_EQ(coat.links.size(), 1U);
+  EXPECT_EQ(coat.links[0].file, "skin.png");
+}
+
+TEST(Dress, LeavesFieldsOutWhereTheLookSaysSo) {
+  const TriangleMesh coat = dress(triangle({"color", "b"}), paint_with(false), {0, 0});
+  EXPECT_EQ(names(coat.attributes), (std::vector<std::string>{"b", "color", "input_color", "normal"}));
+  EXPECT_EQ(coat.find("b")->values, number("b").values);  // that of the shape
+  EXPECT_EQ(coat.find("color")->values, dress(triangle({}), paint_with(true), {0, 0}).find("color")->values);
+}
+
+/// An attribute that is called like a species: layers know the species by its name, and the attribute as files do.
+TEST(Dress, LayersReadWhatASpeciesHides) {
+  Look look;
+  look.layers.emplace_back();
+  look.layers[0].color = {"#ffffff", {}};
+  look.layers[0].opacity = {"attribute(input_b) == 2", {}};
+  Tessellation t = triangle({"b"});
+  t.samples.attributes["b"] = {1, 2, 3};
+  const std::vector<double> color = dress(t, resolve_paint(look, {"large.b", "b"}), {0, 0}).find("color")->values;
+  EXPECT_EQ(color[3], 1);
+  EXPECT_NE(color[0], 1);
+  EXPECT_NE(color[6], 1);
+}
+
+}  // namespace
+}  // namespace pelage
