@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/length_unit.h"
 #include "command.h"
 #include "pelage/io.h"
 #include "shape/describe.h"
@@ -30,7 +31,7 @@ std::string valences(const MeshReport& r) {
   return text;
 }
 
-void print_report(const MeshReport& r) {
+void print_report(const MeshReport& r, const std::optional<double>& unit) {
   line("vertices", std::to_string(r.vertices));
   line("edges", std::to_string(r.edges));
   line("triangles", std::to_string(r.faces));
@@ -43,6 +44,7 @@ void print_report(const MeshReport& r) {
   line("area", number(r.area));
   if (r.volume != 0) line("volume", number(r.volume));
   line("bounding box", place(r.low) + " to " + place(r.high) + ", diagonal " + number(r.diagonal));
+  line("unit", unit ? unit_name(*unit) : "not in the file");
   for (const std::string& attribute : r.attributes) line("attribute", attribute);
   if (r.findings.empty()) line("findings", "none");
   for (const Finding& f : r.findings) line(f.repaired ? "repaired" : "noted", f.text);
@@ -52,7 +54,7 @@ Json to_json(const Spread& r) {
   return {{"min", json_number(r.min)}, {"mean", json_number(r.mean)}, {"max", json_number(r.max)}};
 }
 
-Json to_json(const MeshReport& r, const std::string& shape) {
+Json to_json(const MeshReport& r, const std::string& shape, const std::optional<double>& unit) {
   Json valence_counts = Json::object();
   for (const auto& [valence, count] : r.valences) valence_counts[std::to_string(valence)] = count;
   return {{"shape", shape},
@@ -73,6 +75,7 @@ Json to_json(const MeshReport& r, const std::string& shape) {
           {"low", r.low},
           {"high", r.high},
           {"diagonal", json_number(r.diagonal)},
+          {"metres_per_unit", unit ? json_number(*unit) : Json(nullptr)},
           {"attributes", r.attributes},
           {"findings", json_findings(r.findings)}};
 }
@@ -87,9 +90,9 @@ void check(const CheckOptions& options) {
   MeshReport report = describe(file.mesh, std::move(file.findings));
   if (file.source && file.source->polygons.find("normal") && !file.mesh.find("normal"))
     report.attributes.emplace_back("normal (of the file, and kept with its form; the surface has its own)");
-  if (options.json) return print_json(to_json(report, options.shape));
+  if (options.json) return print_json(to_json(report, options.shape, file.mesh.metres_per_unit));
   std::puts(options.shape.c_str());
-  print_report(report);
+  print_report(report, file.mesh.metres_per_unit);
 }
 
 }  // namespace

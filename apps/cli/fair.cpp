@@ -8,6 +8,7 @@
 #include "base/suggest.h"
 #include "command.h"
 #include "fair/attribute.h"
+#include "input_unit.h"
 #include "interrupt.h"
 #include "outputs.h"
 #include "progress_bar.h"
@@ -23,6 +24,7 @@ struct FairCommand {
   FairOptions options;
   std::string attribute;  ///< to be smoothed instead of the mesh, or empty
   std::optional<std::string> method;
+  std::optional<double> input_unit;  ///< metres
   bool json = false, quiet = false;
 };
 
@@ -127,7 +129,7 @@ void run_fair(const FairCommand& command) {
   for (const std::string& path : command.outputs) check_mesh_path(path);
   catch_interrupts();
   ProgressBar bar(command.quiet || command.json ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
-  const ShapeFile file = read_shape(command.shape);
+  const ShapeFile file = read_shape(command.shape, command.input_unit);
   if (command.attribute.empty())
     finish(command, file, faired(command, file.mesh, bar.progress()), bar);
   else
@@ -183,6 +185,7 @@ Command add_fair(CLI::App& parent) {
       ->delimiter(',')
       ->type_name("FILES");
   add_method_options(app, *command);
+  add_input_unit_option(*app, command->input_unit);
   app->add_flag("--json", command->json, "Print what was done as JSON");
   app->add_flag("-q,--quiet", command->quiet, "Print nothing but errors");
   app->footer(

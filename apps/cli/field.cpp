@@ -14,6 +14,7 @@
 #include "command.h"
 #include "direction/guides.h"
 #include "direction/hatching.h"
+#include "input_unit.h"
 #include "interrupt.h"
 #include "io/png_writer.h"
 #include "outputs.h"
@@ -35,6 +36,7 @@ struct FieldCommand {
   std::vector<Index> from, to;
   int n = 2;
   std::optional<double> smooth;
+  std::optional<double> input_unit;  ///< metres
   bool curvature = false, across = false, up_z = false, json = false, quiet = false;
   double azimuth = 35, elevation = 14, spacing = 0;
   int size = 1024;
@@ -149,7 +151,7 @@ void run_field(const FieldCommand& o) {
   require_one_guide(o);
   catch_interrupts();
   ProgressBar bar(o.quiet || o.json ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
-  const ShapeFile file = read_shape(o.shape);
+  const ShapeFile file = read_shape(o.shape, o.input_unit);
   const TriangleMesh& mesh = file.mesh;
   const UpAxis up = o.up_z ? UpAxis::z : file.up;
   const Connection c = make_connection(make_topology(mesh.points.size(), mesh.triangles), mesh.points);
@@ -218,6 +220,7 @@ Command add_field(CLI::App& parent) {
       ->type_name("N");
   add_guide_options(app, *o);
   add_picture_options(app, *o);
+  add_input_unit_option(*app, o->input_unit);
   app->add_flag("--json", o->json, "Print the result as JSON");
   app->add_flag("-q,--quiet", o->quiet, "Print nothing but errors");
   app->footer(

@@ -9,9 +9,11 @@
 #include "base/job_progress.h"
 #include "base/parallel.h"
 #include "catalog/bind.h"
+#include "catalog/size.h"
 #include "command.h"
 #include "gallery_page.h"
 #include "gallery_subjects.h"
+#include "input_unit.h"
 #include "interrupt.h"
 #include "io/atomic_file.h"
 #include "look/caption.h"
@@ -35,6 +37,7 @@ constexpr double share_of_run = 0.9;
 struct GalleryOptions {
   std::string folder;
   std::optional<std::string> size;
+  std::optional<double> input_unit;  ///< of the shapes, metres
   std::vector<std::string> names, shapes;
   bool recipes = false;
   int picture_size = 512, threads = 0;
@@ -145,6 +148,15 @@ void make_pictures(const std::vector<Job>& jobs, const GalleryOptions& options, 
                                       ", the index was not written");
 }
 
+/// Lengths that a shape cannot give are refused before any work.
+void require_lengths(const std::vector<GallerySubject>& subjects, const std::vector<GalleryShape>& shapes) {
+  for (const GalleryShape& shape : shapes)
+    for (const GallerySubject& subject : subjects)
+      for (const Stage& stage : subject.recipe.stages)
+        for (const auto& length : {stage.size, stage.unit, stage.points})
+          if (length) world_length(*length, scale_of(shape.mesh));
+}
+
 void make_folder(const std::string& folder) {
   std::error_code reason;
   std::filesystem::create_directories(folder, reason);
@@ -183,7 +195,8 @@ std::vector<GallerySubject> wanted_subjects(const GalleryOptions& options) {
 
 void gallery(const GalleryOptions& options) {
   const std::vector<GallerySubject> subjects = wanted_subjects(options);
-  const std::vector<GalleryShape> shapes = gallery_shapes(options.shapes, options.recipes);
+  const std::vector<GalleryShape> shapes = gallery_shapes(options.shapes, options.recipes, options.input_unit);
+  require_lengths(subjects, shapes);
   std::vector<GalleryEntry> entries = empty_entries(subjects, shapes);
   require_distinct_files(entries);
   make_folder(options.folder);
@@ -220,6 +233,7 @@ void add_options(CLI::App& app, GalleryOptions& o) {
       ->allow_extra_args(false);
   app.add_option("--size", o.size, "Spacing of the patterns of models, as in grow (default: 0.08)")
       ->type_name("LENGTH");
+  add_input_unit_option(app, o.input_unit);
   app.add_option("--picture-size", o.picture_size, "Width of the pictures, pixels (default: 512)")
       ->type_name("N")
       ->check(whole_number(smallest_picture, largest_picture));

@@ -4,6 +4,7 @@
 
 #include "catalog/models.h"
 #include "catalog/plan.h"
+#include "input_unit.h"
 #include "pelage/grow.h"
 #include "pelage/io.h"
 
@@ -31,10 +32,10 @@ std::vector<ModelEntry> wanted_models(const std::vector<std::string>& names) {
 std::vector<GallerySubject> model_subjects(const std::vector<std::string>& names, const Length& size) {
   std::vector<GallerySubject> subjects;
   for (const ModelEntry& m : wanted_models(names)) {
-    compile(m.source);
     Recipe recipe;
     recipe.stages[0].model.value = m.name;
     recipe.stages[0].size = {size, {}};
+    plan(recipe);
     const bool variant = names_variant(m.name);
     subjects.push_back(
         {m.name, m.source.title, variant ? "" : m.source.summary, variant ? "" : m.source.cite, std::move(recipe)});
@@ -52,13 +53,14 @@ std::vector<GallerySubject> recipe_subjects(const std::vector<std::string>& name
   return subjects;
 }
 
-std::vector<GalleryShape> gallery_shapes(const std::vector<std::string>& paths, bool of_recipes) {
+std::vector<GalleryShape> gallery_shapes(const std::vector<std::string>& paths, bool of_recipes,
+                                         const std::optional<double>& metres_per_unit) {
   std::vector<GalleryShape> shapes;
   for (const std::string& path : paths) {
     const bool built_in = path.starts_with("builtin:");
     const std::string name =
         built_in ? path.substr(8, path.find('?') - 8) : std::filesystem::path(path).stem().string();
-    shapes.push_back({name, read_shape(path).mesh});
+    shapes.push_back({name, read_shape(path, metres_per_unit).mesh});
   }
   if (!shapes.empty()) return shapes;
   // Coarse enough that the pattern alone decides how fine the mesh gets.

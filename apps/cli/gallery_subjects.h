@@ -17,7 +17,7 @@ struct GallerySubject {
 };
 
 /// The models of these names, each with its variants, all of them when there is none; patterns of `size`. Faults of
-/// files are thrown before any work.
+/// files and of the size are thrown before any work.
 std::vector<GallerySubject> model_subjects(const std::vector<std::string>& names, const Length& size);
 
 /// The recipes of these names, or all of them.
@@ -28,7 +28,8 @@ struct GalleryShape {
   TriangleMesh mesh;
 };
 
-/// These shapes; those that suit models or recipes when there is none.
-std::vector<GalleryShape> gallery_shapes(const std::vector<std::string>& paths, bool of_recipes);
+/// These shapes, with that unit if it is given; those that suit models or recipes when there is none.
+std::vector<GalleryShape> gallery_shapes(const std::vector<std::string>& paths, bool of_recipes,
+                                         const std::optional<double>& metres_per_unit = {});
 
 }  // namespace pelage

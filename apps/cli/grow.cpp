@@ -10,6 +10,7 @@
 #include "command.h"
 #include "grow_options.h"
 #include "grow_report.h"
+#include "input_unit.h"
 #include "interrupt.h"
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
@@ -212,7 +213,7 @@ void grow(const GrowOptions& options) {
 
   progress("reading " + recipe.shape, 0);
   std::vector<Texture> images = read_images(recipe.textures);
-  ShapeFile file = read_shape(recipe.shape);
+  ShapeFile file = read_shape(recipe.shape, options.input_unit);
   report.shape(recipe.shape, file);
   if (!recipe.look.keep_shape) file.source.reset();
 

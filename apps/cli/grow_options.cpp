@@ -9,6 +9,7 @@
 #include "catalog/plan.h"
 #include "catalog/quality.h"
 #include "catalog/size.h"
+#include "input_unit.h"
 #include "io/atomic_file.h"
 #include "io/png_writer.h"
 #include "io/write_mesh.h"
@@ -80,9 +81,10 @@ void add_pattern_options(CLI::App& app, GrowOptions& o) {
       ->group(group);
   app.add_option("--size", o.size,
                  "Spacing of the pattern: a fraction of the shape's diagonal (default: 0.04) or a length: 4mm, 2cm, "
-                 "0.1m, 3in, or 1.5u in units of the file")
+                 "0.1m, 3in, 1ft, or 1.5u in units of the file")
       ->type_name("LENGTH")
       ->group(group);
+  add_input_unit_option(app, o.input_unit)->group(group);
   app.add_option(
          "--unit", o.unit,
          "Instead of --size, what one length unit of the model becomes: the model's own parameters then set the "
@@ -296,10 +298,10 @@ void apply_size(const Length& size, std::vector<Stage>& stages) {
   const Length before = stages[0].size ? stages[0].size->value : Length{default_size, true};
   for (Stage& stage : stages) {
     const Length own = stage.size ? stage.size->value : Length{default_size, true};
-    if (own.relative != before.relative || stage.unit)
+    if (own.relative != before.relative || own.metres != before.metres || stage.unit)
       throw Error(Fault::usage,
                   "--size: the stages of the recipe have sizes of different kinds; use --set STAGE.size=");
-    stage.size = {{own.value / before.value * size.value, size.relative}, {}};
+    stage.size = {{own.value / before.value * size.value, size.relative, size.metres}, {}};
   }
 }
 

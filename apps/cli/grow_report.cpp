@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "base/box.h"
+#include "base/length_unit.h"
+#include "shape/generators.h"
 #include "shape/refine.h"
 #include "text.h"
 
@@ -53,6 +55,20 @@ std::string meshing(const Method& method, int levels) {
          (smooth ? " by Loop's rules" : " at midpoints");
 }
 
+/// "60 x 40 x 10 mm".
+std::string extents(const TriangleMesh& mesh) {
+  const Box box = box_of(mesh.points);
+  std::string text;
+  for (std::size_t k = 0; k < 3; ++k) text += (k ? " x " : "") + number(box.high[k] - box.low[k]);
+  return text + " " + unit_name(*mesh.metres_per_unit);
+}
+
+/// "4 world units", with what they are where that is known.
+std::string world_length_in_words(double length, const TriangleMesh& shape) {
+  const std::optional<double>& unit = shape.metres_per_unit;
+  return number(length) + " world units" + (unit ? " = " + length_in_words(length * *unit) : "");
+}
+
 }  // namespace
 
 void GrowReport::line(const std::string& label, const std::string& text) {
@@ -75,10 +91,13 @@ void GrowReport::warnings(const Run& run) {
 void GrowReport::shape(const std::string& name, const ShapeFile& file) {
   line("shape", name + ": " + counted(file.mesh.points.size(), "vertex") + ", " +
                     counted(file.mesh.triangles.size(), "triangle"));
+  const std::optional<double>& unit = file.mesh.metres_per_unit;
+  if (unit && !is_builtin_shape(name)) line("unit", unit_name(*unit) + ": the shape is " + extents(file.mesh));
   for (const Finding& f : file.findings) line(f.repaired ? "repaired" : "noted", f.text);
   json_["shape"] = {{"name", name},
                     {"vertices", file.mesh.points.size()},
                     {"triangles", file.mesh.triangles.size()},
+                    {"metres_per_unit", unit ? json_number(*unit) : Json(nullptr)},
                     {"findings", json_findings(file.findings)}};
 }
 
@@ -91,8 +110,8 @@ void GrowReport::pattern(const Run& run) {
   for (const StageProgram& p : run.program().stages) {
     finest = std::min(finest, p.size);
     const std::string name = run.program().stages.size() > 1 ? p.name + ": " : "";
-    line("pattern", name + p.model_name + " at a wavelength of " + number(p.size) + " world units (" +
-                        brief(p.size / diagonal) + " of the diagonal)");
+    line("pattern", name + p.model_name + " at a wavelength of " + world_length_in_words(p.size, *run.program().shape) +
+                        " (" + brief(p.size / diagonal) + " of the diagonal)");
     if (!p.follows.empty()) line("following", name + p.follows);
     Json parameters = Json::object();
     for (const ParameterSource& parameter : p.model.parameters()) parameters[parameter.name] = parameter.value;

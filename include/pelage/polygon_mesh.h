@@ -17,6 +17,7 @@ struct PolygonMesh {
   std::vector<Attribute> attributes;   ///< Domain::corner: one tuple per entry of `corners`; face: one per face
   std::vector<FileLink> links;
   NumberType position_type = NumberType::float32;  ///< float64: the points are more than floats with rounding
+  std::optional<double> metres_per_unit = {};      ///< as in TriangleMesh
 
   std::size_t face_count() const { return face_ends.size(); }
   std::size_t face_begin(std::size_t f) const { return f == 0 ? 0 : face_ends[f - 1]; }

@@ -19,14 +19,16 @@ struct Given {
   Location where;
 };
 
-/// A length: a fraction of the bounding box diagonal of the shape, or world units.
+/// A length: a fraction of the bounding box diagonal of the shape, at most 1; metres, which need a shape whose unit is
+/// known (TriangleMesh::metres_per_unit); or world units.
 struct Length {
   double value = 0;
   bool relative = true;
+  bool metres = false;  ///< of those that are not relative
 };
 
-/// "0.04" is a fraction of the diagonal; "4mm", "2cm", "0.1m", "3in", "1.5u" are world units, with metres as the unit
-/// of the file for the metric ones ("u": the file's own unit, whatever it is). Error(Fault::usage) otherwise.
+/// "0.04" is a fraction of the diagonal; "4mm", "2cm", "0.1m", "3in", "1ft" are metres; "1.5u" is in units of the
+/// shape. Error(Fault::usage) otherwise.
 Length parse_length(const std::string& text, const Location& where);
 
 /// What the directions of anisotropic diffusion follow: at least one of these.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -59,6 +60,8 @@ struct TriangleMesh {
   std::vector<Triangle> triangles;
   std::vector<Attribute> attributes;
   std::vector<FileLink> links = {};
+  /// 0.001 where the coordinates count millimetres; nothing where neither the file nor you say.
+  std::optional<double> metres_per_unit = {};
 
   /// The attribute of that name, or nullptr.
   const Attribute* find(std::string_view name) const;

@@ -25,6 +25,14 @@ constexpr double furthest = 0x1p62;  // lattice points beyond have no numbers
 
 }  // namespace
 
+std::uint64_t place_seed(const std::array<double, 3>& place, double length, std::uint64_t seed) {
+  constexpr double cells = 1024;
+  constexpr double between = 0.3183;  // of the walls of cells: simple fractions of a length are well inside
+  for (const double x : place)
+    seed = hash(seed, static_cast<std::uint64_t>(saturated<std::int64_t>(std::floor(x / length * cells + between))));
+  return seed;
+}
+
 double smooth_noise(const std::array<double, 3>& place, double length, std::uint64_t seed) {
   std::array<std::int64_t, 3> cell{};
   std::array<std::array<double, 4>, 3> weight{};

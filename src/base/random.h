@@ -23,6 +23,10 @@ constexpr double uniform(std::uint64_t seed, std::uint64_t counter) {
   return static_cast<double>(hash(seed, counter) >> 11) * 0x1.0p-53;
 }
 
+/// A seed of its own for every place: places less than about a thousandth of `length` apart share one, so that the
+/// rounding of coordinates decides nothing.
+std::uint64_t place_seed(const std::array<double, 3>& place, double length, std::uint64_t seed);
+
 /// Band-limited noise at a place in space: independent lattice values of spacing `length`, smoothed by the
 /// tensor product of cubic B-splines. Mean 0, variance 1 (averaged over space), twice continuously
 /// differentiable; features much smaller than `length` are absent. Depends on the place, not on any mesh. Beyond 2^62

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/box.h"
 #include "base/suggest.h"
 #include "catalog/images.h"
 #include "catalog/marks.h"
@@ -77,7 +76,7 @@ FieldWish bind_directions(const PlannedStage& planned, const MeshPlaces& places,
   return wish;
 }
 
-StageProgram bind_stage(const PlannedStage& planned, const Program& program, double diagonal) {
+StageProgram bind_stage(const PlannedStage& planned, const Program& program, const ShapeScale& scale) {
   const Stage& asked = planned.asked;
   const Suggestions& suggested = planned.model.source().suggestions;
   StageProgram s;
@@ -85,19 +84,20 @@ StageProgram bind_stage(const PlannedStage& planned, const Program& program, dou
   s.model = planned.model;
   s.model_name = asked.model.value;
   s.stepper = planned.stepper;
-  const StageSize size = stage_size(asked, planned.wavelength, diagonal);
+  const StageSize size = stage_size(asked, planned.wavelength, scale);
   s.size = size.wavelength;
   s.length_unit = size.length_unit;
+  s.origin = scale.middle;
   s.step = asked.step;
   s.suggested_step = suggested.step.value_or(1);
   s.excluded = asked.inside.value == "excluded";
-  if (asked.points) s.points = world_length(asked.points->value, diagonal);
+  if (asked.points) s.points = world_length(*asked.points, scale);
   s.until = planned.until;
   s.steps = asked.steps;
   s.stationary = asked.stationary.value_or(suggested.tolerance.value_or(0));
   s.seed = asked.seed;
   if (asked.directions)
-    s.directions = bind_directions(planned, {*program.shape, program.textures, s.length_unit, s.seed}, diagonal);
+    s.directions = bind_directions(planned, {*program.shape, program.textures, s.length_unit, s.seed}, scale.diagonal);
   return s;
 }
 
@@ -161,12 +161,12 @@ const Method* fitting_method(const Plan& plan, const TriangleMesh& shape, std::v
 Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> images) {
   const std::vector<std::string> known = attributes_of(shape, plan.textures);
   require_uv(shape, plan.textures);
-  const double diagonal = box_of(shape.points).diagonal();
+  const ShapeScale scale = scale_of(shape);
   for (const PlannedStage& s : plan.stages)
     require_attributes(symbols_of(s), shape, known,
                        s.asked.points ? std::vector<std::string>{points_attribute} : std::vector<std::string>{});
   require_attributes(plan.paint.symbols(), shape, known, names_of_look(plan.paint.species, known));
-  if (!(diagonal > 0)) throw Error(Fault::input, "the shape has no extent: all its vertices are at one place");
+  if (!(scale.diagonal > 0)) throw Error(Fault::input, "the shape has no extent: all its vertices are at one place");
   Program p;
   p.method = fitting_method(plan, shape, p.warnings);
   p.shape = std::make_shared<const TriangleMesh>(std::move(shape));
@@ -177,14 +177,14 @@ Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> ima
   p.edge = std::numeric_limits<double>::infinity();
   if (sizes_differ(plan, *p.method)) p.edges.assign(p.shape->points.size(), p.edge);
   for (const PlannedStage& s : plan.stages) {
-    p.stages.push_back(bind_stage(s, p, diagonal));
+    p.stages.push_back(bind_stage(s, p, scale));
     note_directions(*p.shape, p.stages.back(), p.warnings);
     need_edges_of(s, *plan.quality, p);
   }
   // The shape itself needs some.
   constexpr double longest_share = 0.02;
-  if (p.method->own_mesh) p.edge = std::min(p.edge, longest_share * diagonal);
-  for (double& edge : p.edges) edge = std::min(edge, longest_share * diagonal);
+  if (p.method->own_mesh) p.edge = std::min(p.edge, longest_share * scale.diagonal);
+  for (double& edge : p.edges) edge = std::min(edge, longest_share * scale.diagonal);
   // They have to do when the surface is at its largest.
   const double growth = std::exp(std::max(0.0, plan.motion.growth * plan.until));
   p.edge /= growth;

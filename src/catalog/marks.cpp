@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/box.h"
 #include "base/number.h"
 #include "pelage/error.h"
 #include "run/material.h"
@@ -24,6 +25,7 @@ std::vector<double> vertex_values(const PlaceFormula& formula, const MeshPlaces&
   Places places{.positions = m.shape.points, .normals = normals};
   for (const auto& [name, values] : attributes) places.attributes[name] = values;
   places.length_unit = m.length_unit;
+  places.origin = box_of(m.shape.points).middle();
   return formula.at(places, m.seed);
 }
 

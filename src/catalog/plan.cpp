@@ -159,7 +159,7 @@ PlannedStage plan_stage(const Stage& stage, const Recipe& recipe, const Method& 
   p.stepper = fitting_stepper(stage.stepper, method, p.model, recipe.motion, components);
   if (stage.directions) plan_directions(*stage.directions, p);
   p.size_map = plan_size_map(stage, p.model);
-  require_one_size(stage);
+  require_sizes(stage);
   p.wavelength = model_wavelength(plain);
   p.until = stage.until.value_or(source.suggestions.end.value_or(1000));
   return p;

@@ -1,23 +1,68 @@
 #include "catalog/size.h"
 
+#include <algorithm>
+
+#include "base/box.h"
+#include "base/length_unit.h"
+#include "base/number.h"
+
 namespace pelage {
 
-double world_length(const Length& length, double diagonal) {
-  return length.relative ? length.value * diagonal : length.value;
+namespace {
+
+/// Both readings, so that one of them can be chosen.
+[[noreturn]] void refuse_unknown_unit(const Given<Length>& length, const ShapeScale& scale) {
+  const std::string across = number(scale.longest);
+  throw Error(Fault::usage,
+              "a length of " + length_in_words(length.value.value) +
+                  " needs the unit of the shape, which its file does not say: it is " + across + " units across, " +
+                  across + " m or " + across + " mm; give --input-unit m or --input-unit mm",
+              length.where);
 }
 
-void require_one_size(const Stage& stage) {
+/// More than the whole shape is no fraction of it: most likely the unit was forgotten.
+void require_fraction(const char* what, const std::optional<Given<Length>>& length) {
+  if (!length || !length->value.relative || length->value.value <= 1) return;
+  const std::string given = number(length->value.value);
+  throw Error(Fault::usage,
+              std::string(what) + " " + given + " is " + given +
+                  " diagonals of the shape; give a fraction of at most 1, or write " + given + "u for " + given +
+                  " units of the file (" + given + "mm for millimetres)",
+              length->where);
+}
+
+}  // namespace
+
+ShapeScale scale_of(const TriangleMesh& shape) {
+  const Box box = box_of(shape.points);
+  ShapeScale scale{box.diagonal(), 0, box.middle(), shape.metres_per_unit};
+  for (std::size_t k = 0; k < 3; ++k) scale.longest = std::max(scale.longest, box.high[k] - box.low[k]);
+  return scale;
+}
+
+double world_length(const Given<Length>& length, const ShapeScale& scale) {
+  const Length& l = length.value;
+  if (l.relative) return l.value * scale.diagonal;
+  if (!l.metres) return l.value;
+  if (!scale.metres_per_unit) refuse_unknown_unit(length, scale);
+  return l.value / *scale.metres_per_unit;
+}
+
+void require_sizes(const Stage& stage) {
   if (stage.size && stage.unit)
     throw Error(Fault::usage, "a stage has either a size or a unit, since one follows from the other",
                 stage.unit->where);
+  require_fraction("size", stage.size);
+  require_fraction("unit", stage.unit);
+  require_fraction("points", stage.points);
 }
 
-StageSize stage_size(const Stage& stage, double model_wavelength, double diagonal) {
+StageSize stage_size(const Stage& stage, double model_wavelength, const ShapeScale& scale) {
   if (stage.unit) {
-    const double unit = world_length(stage.unit->value, diagonal);
+    const double unit = world_length(*stage.unit, scale);
     return {unit * model_wavelength, unit};
   }
-  const double size = world_length(stage.size ? stage.size->value : Length{default_size, true}, diagonal);
+  const double size = world_length(stage.size.value_or(Given<Length>{{default_size, true}, {}}), scale);
   return {size, size / model_wavelength};
 }
 

@@ -2,14 +2,25 @@
 // How large the pattern of a stage becomes in the world.
 
 #include "pelage/recipe.h"
+#include "pelage/triangle_mesh.h"
 
 namespace pelage {
 
 /// Default of Stage::size, as a fraction of the diagonal.
 inline constexpr double default_size = 0.04;
 
-/// In world units, on a shape whose bounding box has this diagonal.
-double world_length(const Length& length, double diagonal);
+/// What lengths of a recipe refer to.
+struct ShapeScale {
+  double diagonal = 0;                    ///< of the bounding box [world units]
+  double longest = 0;                     ///< side of it
+  Point middle{};                         ///< of it
+  std::optional<double> metres_per_unit;  ///< nothing where nobody knows
+};
+
+ShapeScale scale_of(const TriangleMesh& shape);
+
+/// In world units. Error(usage), located, for metres on a shape whose unit nobody knows.
+double world_length(const Given<Length>& length, const ShapeScale& scale);
 
 /// In world units.
 struct StageSize {
@@ -17,10 +28,10 @@ struct StageSize {
   double length_unit = 0;  ///< of the model: `wavelength` over that in model length units
 };
 
-/// Error(usage), located, when a stage has both a size and a unit.
-void require_one_size(const Stage& stage);
+/// Error(usage), located, when a stage has both a size and a unit, and for lengths above the whole diagonal.
+void require_sizes(const Stage& stage);
 
-/// What the stage's `size` or `unit` asks of a model with this wavelength [model length units].
-StageSize stage_size(const Stage& stage, double model_wavelength, double diagonal);
+/// What the stage's `size` or `unit` asks of a model with this wavelength [model length units]. Errors of world_length.
+StageSize stage_size(const Stage& stage, double model_wavelength, const ShapeScale& scale);
 
 }  // namespace pelage

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "shape/normals.h"
+#include "shape/own_order.h"
 #include "shape/vectors.h"
 
 namespace pelage {
@@ -109,6 +110,9 @@ double Connection::curvature(Index f) const {
 Connection make_connection(Topology topology, const std::vector<Point>& points) {
   Connection c;
   c.topology = std::move(topology);
+  // Angles count from an edge that the form of the surface chooses.
+  for (Index v = 0; v < c.topology.vertex_count; ++v)
+    c.topology.outgoing[at(v)] = first_halfedge(c.topology, points, v);
   measure_triangles(c, points);
   const std::vector<double> polar = polar_angles(c);
   c.transport.resize(polar.size());

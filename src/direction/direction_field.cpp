@@ -6,9 +6,9 @@
 #include <string>
 
 #include "base/checked.h"
-#include "base/random.h"
 #include "linalg/conjugate_gradient.h"
 #include "pelage/error.h"
+#include "shape/vectors.h"
 
 namespace pelage {
 
@@ -189,6 +189,21 @@ class Solver {
       if (const double s = square[at(piece_[at(i / 2)])]; s > 0) z[i] /= std::sqrt(s);
   }
 
+  /// Some field that depends on the form of the surface alone: the projection of a vector in space that turns with the
+  /// normal. Of a symmetric surface many fields are as smooth as each other, and this chooses one.
+  Vector beginning() const {
+    Vector z(mass_.size());
+    for (Index v = 0; v < std::ssize(piece_); ++v) {
+      const Point& n = c_.normal[at(v)];
+      const Point a = {std::sin(2.3 * n[1] + 1) + 0.4, std::sin(1.9 * n[2] + 2) - 0.3, std::sin(2.7 * n[0] + 3) + 0.2};
+      const double along = dot(a, n), angle = n_ * c_.angle(v, a);
+      const double projected = std::sqrt(std::max(0.0, dot(a, a) - along * along));
+      z[2 * v] = projected * std::cos(angle);
+      z[2 * v + 1] = projected * std::sin(angle);
+    }
+    return z;
+  }
+
   /// Inverse iteration; all pieces at once, since A does not link them.
   Vector smoothest() {
     // A flat piece has the eigenvalue 0, so A is shifted by far less than any other: the eigenvectors stay.
@@ -196,8 +211,7 @@ class Solver {
     const double total = mass_.sum() / 2;
     SparseMatrix a = laplacian_;
     add_to_diagonal(a, shift / total * mass_);
-    Vector z(mass_.size());
-    for (Index i = 0; i < z.size(); ++i) z[i] = 2 * uniform(1, static_cast<std::uint64_t>(i)) - 1;
+    Vector z = beginning();
     normalise(z);
     constexpr int most_rounds = 30;
     constexpr double settled = 1e-4;  // relative change of the roughness: of fields about as smooth as each other, any

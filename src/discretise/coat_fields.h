@@ -28,6 +28,7 @@ struct CoatFields {
   std::vector<char> uniform;                      ///< per species, whether it shows no pattern
   double wavelength = 0;                          ///< of the finest pattern [world units]
   double length_unit = 1;                         ///< world length of a model length unit of the last stage
+  Point origin{};                                 ///< from where random fields of the last stage count
   std::uint64_t seed = 1;                         ///< of the last stage
 };
 

@@ -196,21 +196,35 @@ void stand_up(TriangleMesh& mesh) {
   stand_up_components(mesh.attributes);
 }
 
-/// The middle of the points if they are so far away that floats would lose more than a millionth of their extent.
-Point origin_of(const std::vector<Point>& points) {
-  Point origin{};
-  const Box box = box_of(points);
+/// Would floats lose more than a millionth of the extent?
+bool far_away(const std::vector<Point>& points, const Box& box) {
   double furthest = 0;
   for (const Point& p : points)
     for (double x : p) furthest = std::max(furthest, std::abs(x));
   constexpr double rounding = 1.0 / (1 << 24), tolerance = 1e-6;
-  if (furthest * rounding <= tolerance * box.diagonal()) return origin;
+  return furthest * rounding > tolerance * box.diagonal();
+}
+
+/// How nodes place the numbers of a mesh in a world of metres: scaled, then moved.
+struct Placement {
+  double scale = 1;
+  Point translation{};
+  Point origin{};  ///< from where positions count: what the translation moves to its place [units of the mesh]
+};
+
+Placement placement_of(const TriangleMesh& mesh) {
+  Placement place;
+  place.scale = mesh.metres_per_unit.value_or(1);
+  const Box box = box_of(mesh.points);
+  if (!far_away(mesh.points, box)) return place;
+  const Point middle = box.middle();
   for (std::size_t k = 0; k < 3; ++k) {
-    const double middle = (box.low[k] + box.high[k]) / 2;
-    origin[k] = static_cast<float>(middle);  // the same number in programs that compute with floats
-    if (std::abs(origin[k] - middle) > box.diagonal()) origin[k] = middle;
+    const double moved = place.scale * middle[k];
+    place.translation[k] = static_cast<float>(moved);  // the same number in programs that compute with floats
+    if (std::abs(place.translation[k] - moved) > place.scale * box.diagonal()) place.translation[k] = moved;
+    place.origin[k] = place.translation[k] / place.scale;
   }
-  return origin;
+  return place;
 }
 
 tinygltf::Material coat_material(const std::string& name, bool double_sided) {
@@ -301,12 +315,12 @@ TriangleMesh extract(const TriangleMesh& mesh, const std::vector<std::size_t>& f
 }
 
 /// Adds a mesh, and the node in which it stands.
-void add_object(tinygltf::Model& model, const TriangleMesh& original, const std::string& name, const Point& origin) {
+void add_object(tinygltf::Model& model, const TriangleMesh& original, const std::string& name, const Placement& place) {
   const Attribute* material = labels(original, "material");
   const TriangleMesh mesh = split_corners(with_colors_at_corners(original));
   tinygltf::Primitive primitive;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
-  primitive.attributes["POSITION"] = add_positions(model, mesh.points, origin);
+  primitive.attributes["POSITION"] = add_positions(model, mesh.points, place.origin);
   for (const Attribute& attribute : mesh.attributes)
     if (attribute.domain == Domain::vertex) add_attribute(model, primitive, attribute);
   tinygltf::Mesh object;
@@ -321,7 +335,8 @@ void add_object(tinygltf::Model& model, const TriangleMesh& original, const std:
   tinygltf::Node node;
   node.mesh = static_cast<int>(model.meshes.size());
   node.name = object.name;
-  if (origin != Point{}) node.translation = {origin[0], origin[1], origin[2]};
+  if (place.scale != 1) node.scale = {place.scale, place.scale, place.scale};
+  if (place.origin != Point{}) node.translation.assign(place.translation.begin(), place.translation.end());
   model.scenes[0].nodes.push_back(static_cast<int>(model.nodes.size()));
   model.meshes.push_back(std::move(object));
   model.nodes.push_back(std::move(node));
@@ -340,7 +355,7 @@ std::string encode_glb(const TriangleMesh& original, const GlbOptions& options) 
   if (original.triangles.empty()) throw Error(Fault::output, "a GLB file needs at least one triangle");
   TriangleMesh mesh = original;
   if (options.up == UpAxis::z) stand_up(mesh);
-  const Point origin = origin_of(mesh.points);
+  const Placement place = placement_of(mesh);
   tinygltf::Model model;
   model.asset.generator = "pelage";
   model.buffers.resize(1);
@@ -352,7 +367,7 @@ std::string encode_glb(const TriangleMesh& original, const GlbOptions& options) 
   std::vector<std::int32_t> number(mesh.points.size(), -1);
   for (const auto& [label, faces] : objects)
     add_object(model, objects.size() > 1 ? extract(mesh, faces, number) : mesh,
-               objects.size() > 1 ? label_of(object, label, options.name) : options.name, origin);
+               objects.size() > 1 ? label_of(object, label, options.name) : options.name, place);
   constexpr std::size_t room_for_json = 1 << 20;
   if (model.buffers[0].data.size() > std::numeric_limits<std::uint32_t>::max() - room_for_json)
     throw Error(Fault::output, "a GLB file holds at most 4 GiB; write PLY instead");

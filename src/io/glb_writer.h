@@ -16,7 +16,8 @@ struct GlbOptions {
 /// The bytes of a GLB file. Where z points up, (x, y, z) becomes (x, z, -y), as do normals, tangents and directions.
 /// Per vertex, where the mesh has them:
 ///   POSITION    float; far from the origin, where floats would lose more than a millionth of the extent, they count
-///               from the translation of the node
+///               from the translation of the node. Where the unit of the mesh is known and no metre, the scale of the
+///               node turns them into metres, which glTF prescribes
 ///   NORMAL      float, scaled to unit length (0 1 0 where it is zero)
 ///   COLOR_0     float, linear, clamped to [0, 1]; three or four components as in "color"; COLOR_1 from "color1"
 ///   TEXCOORD_0  float, with v flipped: glTF counts it downwards; TEXCOORD_1 from "uv1"

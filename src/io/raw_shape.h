@@ -2,6 +2,7 @@
 // What the readers of the formats hand on: polygons as the file has them, not yet checked.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "pelage/up_axis.h"
@@ -18,6 +19,7 @@ struct RawShape {
   std::vector<int> face_lines;    ///< per face: likewise
   std::vector<Finding> findings;
   UpAxis up = UpAxis::y;  ///< as the file says
+  std::optional<double> metres_per_unit = {};
 };
 
 }  // namespace pelage

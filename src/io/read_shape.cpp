@@ -25,11 +25,12 @@ struct Format {
   const char* extension;
   const char* magic;  ///< the first bytes of every such file, or nullptr
   RawShape (*read)(std::string_view bytes, const std::string& path);
+  std::optional<double> metres_per_unit;  ///< that the format prescribes or everybody takes
 };
 
 constexpr Format formats[] = {
-    {".obj", nullptr, read_obj}, {".ply", "ply", read_ply},     {".stl", nullptr, read_stl},
-    {".off", nullptr, read_off}, {".gltf", nullptr, read_gltf}, {".glb", "glTF", read_gltf},
+    {".obj", nullptr, read_obj, {}}, {".ply", "ply", read_ply, {}},    {".stl", nullptr, read_stl, 0.001},
+    {".off", nullptr, read_off, {}}, {".gltf", nullptr, read_gltf, 1}, {".glb", "glTF", read_gltf, 1},
 };
 
 const Format& format_of(const std::string& path) {
@@ -70,10 +71,18 @@ void guess_up(RawShape& raw, const Format& format, std::string_view bytes) {
   raw.findings.push_back({"up-axis", "written by Blender: z points up, --up y if not", 0, 0, false});
 }
 
+/// STL has no unit, but programs for printing take millimetres.
+void take_unit(RawShape& raw, const Format& format) {
+  raw.metres_per_unit = format.metres_per_unit;
+  if (format.read == read_stl)
+    raw.findings.push_back({"unit", "STL says no unit: taken as millimetres, --input-unit if not", 0, 0, false});
+}
+
 RawShape read_raw(const Format& format, std::string_view bytes, const std::string& path) {
   check_content(format, bytes, path);
   RawShape raw = format.read(bytes, path);
   guess_up(raw, format, bytes);
+  take_unit(raw, format);
   return raw;
 }
 
@@ -101,6 +110,7 @@ ShapeFile mended(RawShape raw, const std::string& path) {
   ShapeFile file;
   file.findings = std::move(raw.findings);
   file.up = raw.up;
+  raw.mesh.metres_per_unit = raw.metres_per_unit;
   clear_non_finite_attributes(raw.mesh.attributes, file.findings);
   auto source = std::make_shared<SourceShape>(SourceShape{raw.mesh, {}});
   const std::size_t corners = raw.mesh.corners.size();

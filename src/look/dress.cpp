@@ -52,7 +52,7 @@ void rename_input(std::vector<Attribute>& attributes, const Paint& paint) {
 TriangleMesh dress(Tessellation t, const Paint& paint, const std::vector<char>& uniform) {
   std::vector<double> color = pelage::paint(t.samples, make_palette(paint, t.samples, uniform));
   rename_input(t.attributes, paint);
-  TriangleMesh mesh{std::move(t.samples.position), std::move(t.triangles), {}, std::move(t.links)};
+  TriangleMesh mesh{std::move(t.samples.position), std::move(t.triangles), {}, std::move(t.links), t.metres_per_unit};
   mesh.set({"normal", 3, Domain::vertex, flattened(t.samples.normal)});
   mesh.set({"color", 3, Domain::vertex, std::move(color)});
   for (std::size_t i = 0; paint.fields && i < t.samples.fields.size(); ++i)

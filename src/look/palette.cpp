@@ -63,6 +63,7 @@ Places places_of(const CoatSamples& s, const std::vector<std::string>& species) 
     places.attributes[species[i]] = s.fields[i];
   }
   places.length_unit = s.length_unit;
+  places.origin = s.origin;
   return places;
 }
 
@@ -129,8 +130,11 @@ std::vector<double> paint(const CoatSamples& samples, const Palette& palette) {
   if (palette.paint.layers.empty()) return colors;
   Places places = places_of(samples, palette.paint.species);
   std::vector<DrawnField> drawn;
-  if (!samples.drawn_at.empty())
-    drawn = draw_random_fields(palette.paint.symbols(), samples.drawn_at, samples.length_unit, samples.seed);
+  if (!samples.drawn_at.empty()) {
+    Places drawn_at = places;
+    drawn_at.positions = samples.drawn_at;
+    drawn = draw_random_fields(palette.paint.symbols(), drawn_at, samples.seed);
+  }
   places.drawn = drawn;
   for (const PaintLayer& layer : palette.paint.layers) paint_layer(layer, places, samples.seed, colors);
   return colors;

@@ -16,6 +16,7 @@ struct CoatSamples {
   VertexAttributes attributes;              ///< of the shape and its textures, as formulas know them
   std::vector<Point> drawn_at;              ///< initial places, of a surface that has moved; otherwise empty
   double length_unit = 1;                   ///< world length of a model length unit
+  Point origin{};                           ///< from where random fields count
   std::uint64_t seed = 1;                   ///< of random fields
 
   std::size_t size() const { return position.size(); }

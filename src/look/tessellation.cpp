@@ -87,7 +87,9 @@ class Tessellator {
     t.links = fields_.shape->links;
     for (Attribute& a : t.attributes) levels_.interpolate(a, 0, levels_.finest());
     if (request_.attributes) t.samples.attributes = layer_attributes(fields_.textures, t);
+    t.metres_per_unit = fields_.shape->metres_per_unit;
     t.samples.length_unit = fields_.length_unit;
+    t.samples.origin = fields_.origin;
     t.samples.seed = fields_.seed;
     return t;
   }

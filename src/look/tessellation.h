@@ -9,9 +9,10 @@ namespace pelage {
 
 struct Tessellation {
   std::vector<Triangle> triangles;
-  CoatSamples samples;                ///< at the vertices
-  std::vector<Attribute> attributes;  ///< of the shape but for its normals
-  std::vector<FileLink> links;        ///< of the shape
+  CoatSamples samples;                         ///< at the vertices
+  std::vector<Attribute> attributes;           ///< of the shape but for its normals
+  std::vector<FileLink> links;                 ///< of the shape
+  std::optional<double> metres_per_unit = {};  ///< of the shape
 };
 
 /// Which tessellation a look asks for.

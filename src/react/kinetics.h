@@ -29,6 +29,7 @@ struct Places {
   std::span<const double> k1 = {}, k2 = {};                        ///< principal curvatures, 1 / world unit
   std::map<std::string, std::span<const double>> attributes = {};  ///< vertex attributes of the mesh by name
   double length_unit = 1;                                          ///< world length of one model length unit
+  Point origin{};  ///< from where random fields count: a shape takes them along when it is moved
   std::span<const DrawnField> drawn = {};  ///< random fields that places which move carry along; others are drawn where
                                            ///< the places are
   std::span<const double> mask = {};       ///< of the stage

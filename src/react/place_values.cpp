@@ -1,7 +1,6 @@
 #include "react/place_values.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -12,12 +11,6 @@
 namespace pelage {
 
 namespace {
-
-/// A key for white noise: equal places, to the last bit, give equal keys (and -0 is 0).
-std::uint64_t place_key(std::uint64_t seed, const Point& place) {
-  for (const double coordinate : place) seed = hash(seed, std::bit_cast<std::uint64_t>(coordinate + 0.0));
-  return seed;
-}
 
 double gaussian(std::uint64_t key) {  // Box and Muller 1958; 1 - u is never 0
   constexpr double two_pi = 6.28318530717958647692;
@@ -70,10 +63,11 @@ std::vector<double> random_values(const Symbol& symbol, const Places& places, st
     if (drawn.symbol == symbol) return drawn.values;
   const std::uint64_t stream = hash(seed, symbol.stream);
   return tabulate(places.positions.size(), [&](std::size_t i) {
-    const Point& p = places.positions[i];
-    if (symbol.kind == Symbol::Kind::uniform) return uniform(place_key(stream, p), 0);
-    if (symbol.kind == Symbol::Kind::gaussian) return gaussian(place_key(stream, p));
-    return smooth_noise(p, symbol.length * places.length_unit, stream);
+    Point p = places.positions[i];
+    for (std::size_t k = 0; k < 3; ++k) p[k] -= places.origin[k];
+    if (symbol.kind == Symbol::Kind::noise) return smooth_noise(p, symbol.length * places.length_unit, stream);
+    const std::uint64_t here = place_seed(p, places.length_unit, stream);
+    return symbol.kind == Symbol::Kind::uniform ? uniform(here, 0) : gaussian(here);
   });
 }
 
@@ -119,13 +113,12 @@ std::vector<double> place_values(const Symbol& symbol, const Places& places, std
   }
 }
 
-std::vector<DrawnField> draw_random_fields(const std::vector<Symbol>& symbols, std::span<const Point> places,
-                                           double length_unit, std::uint64_t seed) {
-  const Places at{.positions = places, .length_unit = length_unit};
+std::vector<DrawnField> draw_random_fields(const std::vector<Symbol>& symbols, const Places& places,
+                                           std::uint64_t seed) {
   std::vector<DrawnField> fields;
   for (const Symbol& s : symbols)
     if (s.kind == Symbol::Kind::uniform || s.kind == Symbol::Kind::gaussian || s.kind == Symbol::Kind::noise)
-      fields.push_back({s, random_values(s, at, seed)});
+      fields.push_back({s, random_values(s, places, seed)});
   return fields;
 }
 

@@ -9,13 +9,14 @@
 
 namespace pelage {
 
-/// The values of a place symbol at all samples. Random fields depend on (seed, stream, place) alone. Error(usage)
+/// The values of a place symbol at all samples. Random fields depend on (seed, stream, place from
+/// the origin in length units) alone. Error(usage)
 /// located where the formula uses the symbol if the places do not have it.
 std::vector<double> place_values(const Symbol& symbol, const Places& places, std::uint64_t seed);
 
-/// Those of the symbols that are random, drawn at some places.
-std::vector<DrawnField> draw_random_fields(const std::vector<Symbol>& symbols, std::span<const Point> places,
-                                           double length_unit, std::uint64_t seed);
+/// Those of the symbols that are random.
+std::vector<DrawnField> draw_random_fields(const std::vector<Symbol>& symbols, const Places& places,
+                                           std::uint64_t seed);
 
 /// Values at all places of expressions that depend on the place alone. Small integer powers should have been written as
 /// products (expand_powers).

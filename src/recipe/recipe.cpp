@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/length_unit.h"
 #include "base/number.h"
 #include "recipe/document.h"
 
@@ -193,29 +194,20 @@ Look read_look(const Value& table) {
   return look;
 }
 
-/// World length of a unit: the metric units take the file's unit as a metre, as glTF does.
-std::optional<double> unit_length(const std::string& unit) {
-  if (unit == "u" || unit == "m") return 1;
-  if (unit == "mm") return 1e-3;
-  if (unit == "cm") return 1e-2;
-  if (unit == "in") return 0.0254;
-  return {};
-}
-
 }  // namespace
 
 Length parse_length(const std::string& text, const Location& where) {
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const std::string unit(static_cast<const char*>(end), text.data() + text.size());
-  const std::optional<double> factor = unit_length(unit);
-  if (error != std::errc{} || !std::isfinite(number) || number <= 0 || !(unit.empty() || factor))
+  const std::optional<double> metres = metres_in(unit);
+  if (error != std::errc{} || !std::isfinite(number) || number <= 0 || !(unit.empty() || unit == "u" || metres))
     throw Error(Fault::usage,
                 "'" + text +
                     "' is not a length; give a fraction of the shape's diagonal (0.04) or a length with its unit "
-                    "(4mm, 2cm, 0.1m, 3in, or 1.5u in units of the file)",
+                    "(4mm, 2cm, 0.1m, 3in, 1ft, or 1.5u in units of the file)",
                 where);
-  return unit.empty() ? Length{number, true} : Length{number * *factor, false};
+  return metres ? Length{number * *metres, false, true} : Length{number, unit.empty()};
 }
 
 Recipe parse_recipe(const std::string& text, const std::string& file) {

@@ -45,7 +45,7 @@ VertexAttributes attributes_at_nodes(const Program& program, const StageProgram&
 /// The mask at the samples of a rule, as they are when the stage begins.
 std::vector<double> mask_at(const StageProgram& stage, const Space& space, SampleRule rule, const Material& material) {
   const PlaceFields fields = place_fields(stage.model, space, rule, material.attributes);
-  return mask_values(stage.model, fields.places(material.at(rule), stage.length_unit), stage.seed);
+  return mask_values(stage.model, fields.places(material.at(rule), stage), stage.seed);
 }
 
 /// Samples of the steppers that hold any are at the nodes: there coefficients are held instead, so that the field is
@@ -61,7 +61,10 @@ void add_mask(const StageProgram& stage, const Space& space, Material& material)
 /// At the initial places of the samples; nothing where they stay there.
 std::vector<DrawnField> drawn_once(const World& world, const StageProgram& stage, SampleRule rule) {
   if (!world.surface()) return {};
-  return draw_random_fields(place_symbols(stage.model), world.initial_positions(rule), stage.length_unit, stage.seed);
+  const std::vector<Point> positions = world.initial_positions(rule);
+  return draw_random_fields(place_symbols(stage.model),
+                            {.positions = positions, .length_unit = stage.length_unit, .origin = stage.origin},
+                            stage.seed);
 }
 
 /// The shape as it is now.
@@ -103,13 +106,14 @@ bool has_own_stiffness(const Model& model) {
   return false;
 }
 
-Places PlaceFields::places(const Material::AtSamples& material, double length_unit) const {
+Places PlaceFields::places(const Material::AtSamples& material, const StageProgram& stage) const {
   Places places{.positions = geometry.position,
                 .normals = geometry.normal,
                 .k1 = geometry.curvature.k1,
                 .k2 = geometry.curvature.k2};
   for (const auto& [name, values] : attributes) places.attributes[name] = values;
-  places.length_unit = length_unit;
+  places.length_unit = stage.length_unit;
+  places.origin = stage.origin;
   places.drawn = material.drawn;
   places.mask = material.mask;
   return places;

@@ -37,7 +37,7 @@ struct PlaceFields {
   VertexAttributes attributes;
 
   /// Views on all of it for a Kinetics; valid as long as it and the material are.
-  Places places(const Material::AtSamples& material, double length_unit) const;
+  Places places(const Material::AtSamples& material, const StageProgram& stage) const;
 };
 PlaceFields place_fields(const Model& model, const Space& space, SampleRule rule, const VertexAttributes& at_nodes);
 

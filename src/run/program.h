@@ -32,6 +32,7 @@ struct StageProgram {
   const StepperKind* stepper = &sbdf2;
   double size = 0;             ///< wanted wavelength [world units]
   double length_unit = 0;      ///< world length of one model length unit: size / the model's wavelength
+  Point origin{};              ///< of random fields: the middle of the shape's box
   std::optional<double> step;  ///< fixed step; else the stepper's choice
   double suggested_step = 0;
   bool excluded = false;                ///< what the model holds is cut out: no flux passes its border

@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "base/box.h"
 #include "base/checked.h"
 #include "base/random.h"
 #include "shape/vectors.h"
@@ -58,7 +59,11 @@ class Cubes {
 std::vector<double> distance_to_random_points(const std::vector<Point>& positions, double spacing, std::uint64_t seed) {
   std::vector<std::size_t> order(positions.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair{hash(seed, i), i}; });
+  const Point middle = box_of(positions).middle();
+  std::vector<std::uint64_t> rank;
+  rank.reserve(positions.size());
+  for (const Point& p : positions) rank.push_back(place_seed(difference(p, middle), spacing, seed));
+  std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair{rank[i], i}; });
   Cubes chosen(positions, spacing);
   for (const std::size_t i : order)
     if (chosen.distance(positions[i]) >= spacing) chosen.add(positions[i]);

@@ -384,6 +384,7 @@ CoatFields Run::fields() const {
   f.control = world_.control();
   f.initial_control = world_.initial_control();
   f.length_unit = stage_program().length_unit;
+  f.origin = stage_program().origin;
   f.seed = stage_program().seed;
   f.wavelength = std::ranges::min(program_->stages, {}, &StageProgram::size).size;
   const auto add = [&](const std::string& name, const Vector& u, bool uniform) {

@@ -43,8 +43,8 @@ StageSystem::StageSystem(const StageProgram& stage, std::shared_ptr<const Space>
 
 std::shared_ptr<const Kinetics> StageSystem::kinetics_at(SampleRule rule, Kinetics::Parts parts) const {
   const PlaceFields fields = place_fields(stage_->model, *space_, rule, material_->attributes);
-  return std::make_shared<const Kinetics>(stage_->model, fields.places(material_->at(rule), stage_->length_unit),
-                                          stage_->seed, parts);
+  return std::make_shared<const Kinetics>(stage_->model, fields.places(material_->at(rule), *stage_), stage_->seed,
+                                          parts);
 }
 
 void StageSystem::add_species(std::size_t i) {

@@ -238,7 +238,10 @@ TriangleMesh builtin_shape(const std::string& spec) {
   const auto shape = std::find_if(std::begin(builtin_shapes), std::end(builtin_shapes),
                                   [&](const BuiltinShape& s) { return name == s.name; });
   if (shape == std::end(builtin_shapes)) unknown("built-in shape", name, builtin_shape_names());
-  return shape->make(question == std::string::npos ? default_count : parse_count(rest.substr(question + 1)));
+  TriangleMesh mesh =
+      shape->make(question == std::string::npos ? default_count : parse_count(rest.substr(question + 1)));
+  mesh.metres_per_unit = 1;
+  return mesh;
 }
 
 }  // namespace pelage

@@ -13,6 +13,7 @@
 #include "pelage/error.h"
 #include "shape/editable_mesh.h"
 #include "shape/locate.h"
+#include "shape/own_order.h"
 
 namespace pelage {
 
@@ -117,6 +118,12 @@ constexpr double at_rest = 0.02;
 
 constexpr double most_faces = 1e8;  // numbers of half-edges stay below 2^31 while the mesh is refined
 
+/// Is the area between two edges, their cross product, so small that rounding chose its direction?
+bool flat(const Vec& cross, const Vec& a, const Vec& b) {
+  constexpr double sine = 1e-4;
+  return cross.squaredNorm() <= sine * sine * a.squaredNorm() * b.squaredNorm();
+}
+
 /// How freely a vertex moves; of two that merge the less free one stays.
 enum class Hold : char { free, crease, border, corner };
 
@@ -149,8 +156,8 @@ double wanted_faces(const Topology& base, const std::vector<Point>& points, cons
 class IsotropicMesher {
  public:
   IsotropicMesher(const Topology& base, const std::vector<Point>& points, std::vector<double> sizes,
-                  const Topology& start);
-  /// To so many triangles.
+                  const OwnOrder& start);
+  /// To so many triangles; without the points.
   IsotropicMesh run(double wanted);
 
  private:
@@ -209,6 +216,7 @@ class IsotropicMesher {
   Spot& spot(Index v) { return spots_[at(v)]; }
 
   const Topology& base_;
+  const std::vector<Point>& points_;
   SurfaceWalk surface_;
   BorderLines border_;
   std::vector<double> sizes_;  ///< per base vertex
@@ -221,21 +229,23 @@ class IsotropicMesher {
 };
 
 IsotropicMesher::IsotropicMesher(const Topology& base, const std::vector<Point>& points, std::vector<double> sizes,
-                                 const Topology& start)
+                                 const OwnOrder& start)
     : base_(base),
+      points_(points),
       surface_(base, points),
       border_(base, points),
       sizes_(std::move(sizes)),
       even_(std::adjacent_find(sizes_.begin(), sizes_.end(), std::not_equal_to<>()) == sizes_.end()),
-      mesh_(start),
-      spots_(at(start.vertex_count)),
+      mesh_(start.topology),
+      spots_(start.vertex.size()),
       stirred_(spots_.size(), true),
       aims_(spots_.size(), aim(Hold::free)) {
   for (std::size_t v = 0; v < spots_.size(); ++v) {
-    const Index h = base.outgoing[v];
+    const std::size_t source = at(start.vertex[v]);
+    const Index h = first_halfedge(base, points, start.vertex[v]);
     if (h < 0) continue;
     const bool border = base.twin[at(h)] < 0;
-    spots_[v] = {Vec(points[v].data()), place_on(h, 0), border ? h : -1, Hold::free, sizes_[v]};
+    spots_[v] = {Vec(points[source].data()), place_on(h, 0), border ? h : -1, Hold::free, sizes_[source]};
     if (border) spots_[v].hold = border_.corner(h) ? Hold::corner : Hold::border;
     aims_[v] = aim(spots_[v].hold);
   }
@@ -249,7 +259,7 @@ bool IsotropicMesher::on_rim(const MeshPlace& place) const {
 
 Spot IsotropicMesher::on_surface(const Vec& p, Index from_face) const {
   Spot result;
-  result.place = surface_.closest(p, from_face);
+  result.place = own_place(base_, points_, surface_.closest(p, from_face));
   result.point = surface_.point(result.place);
   result.size = even_ ? sizes_[0] : value_at(base_.triangles, sizes_, result.place);
   return result;
@@ -353,10 +363,11 @@ bool IsotropicMesher::keeps_form(Index moved, Index other, const Vec& target) co
   bool good = true;
   mesh_.around(moved, [&](Index n) {
     if (last >= 0 && n != other && last != other) {
-      const Vec before = face_normal(moved, last, n);
-      const Vec after = (spot(last).point - target).cross(spot(n).point - target);
+      const Vec &here = spot(moved).point, &p = spot(last).point, &q = spot(n).point;
+      const Vec before = (p - here).cross(q - here), after = (p - target).cross(q - target);
       const double product = before.dot(after);  // below 60 degrees
-      good &= product >= 0 && product * product >= 0.25 * before.squaredNorm() * after.squaredNorm();
+      const bool kept = product >= 0 && product * product >= 0.25 * before.squaredNorm() * after.squaredNorm();
+      good &= flat(before, p - here, q - here) || (kept && !flat(after, p - target, q - target));
     }
     last = n;
   });
@@ -425,9 +436,11 @@ bool IsotropicMesher::flip_keeps_form(Index h) const {
   const Index a = mesh_.origin(h), b = mesh_.target(h);
   const Index c = mesh_.origin(previous_halfedge(h)), d = mesh_.origin(previous_halfedge(mesh_.twin(h)));
   const Vec one = face_normal(a, b, c), two = face_normal(b, a, d);
-  if (one.dot(two) < 0.5 * one.norm() * two.norm()) return false;  // 60 degrees
+  const double least = 1e-4 * (one.norm() + two.norm());  // of areas whose direction is more than rounding
+  if (std::min(one.norm(), two.norm()) > least && one.dot(two) < 0.5 * one.norm() * two.norm())  // 60 degrees
+    return false;
   const Vec mean = (one + two).normalized(), left = face_normal(a, d, c), right = face_normal(d, b, c);
-  return left.dot(mean) > 0.7 * left.norm() && right.dot(mean) > 0.7 * right.norm();
+  return left.dot(mean) > std::max(least, 0.7 * left.norm()) && right.dot(mean) > std::max(least, 0.7 * right.norm());
 }
 
 /// Turns edges where that brings the valences nearer to 6 (4 on the boundary).
@@ -450,7 +463,7 @@ bool IsotropicMesher::turns_over(const Vec& from, const Vec& to, const Index* be
     const Vec &p = spot(*last).point, &q = spot(*n).point;
     const Vec before = (p - from).cross(q - from), after = (p - to).cross(q - to);
     const double was = before.norm(), is = after.norm();
-    if (before.dot(after) < 0.5 * was * is || is < 0.1 * was) return true;
+    if (!flat(before, p - from, q - from) && (before.dot(after) < 0.5 * was * is || is < 0.1 * was)) return true;
   }
   return false;
 }
@@ -485,8 +498,8 @@ Spot IsotropicMesher::relaxed(Index v, const Index* begin, const Index* end) con
     from = to;
   }
   if (!(weight > 0)) return here;
-  constexpr double flat = 0.8;  // the length of the mean normal; 0.71 on a right-angled edge
-  if (normals.norm() >= flat * areas) {
+  constexpr double even = 0.8;  // the length of the mean normal; 0.71 on a right-angled edge
+  if (normals.norm() >= even * areas) {
     const Vec target = here.point + centre / (3 * weight);
     const Spot result = on_surface(target, here.place.face);
     // Beside its aim, or on an edge that may be one of the boundary, it can come upon its neighbours.
@@ -503,7 +516,7 @@ Spot IsotropicMesher::relaxed(Index v, const Index* begin, const Index* end) con
   for (std::ptrdiff_t k = 0; k < n; ++k) {
     const Vec one = face_normal(v, begin[k], begin[(k + 1) % n]),
               two = face_normal(v, begin[(k + n - 1) % n], begin[k]);
-    if (one.dot(two) >= 0.7 * one.norm() * two.norm()) continue;
+    if (std::min(one.norm(), two.norm()) <= 1e-4 * areas || one.dot(two) >= 0.7 * one.norm() * two.norm()) continue;
     along += spot(begin[k]).point / 2;
     ++sharp;
   }
@@ -580,14 +593,9 @@ IsotropicMesh IsotropicMesher::run(double wanted) {
   flip_all();
   relax(2);
   pack();
-  IsotropicMesh result{mesh_.topology(), std::vector<Point>(spots_.size()), std::vector<MeshPlace>(spots_.size())};
-  parallel_for(spots_.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      const Vec& p = spots_[v].point;
-      result.points[v] = {p.x(), p.y(), p.z()};
-      result.places[v] = spots_[v].place;
-    }
-  });
+  IsotropicMesh result{mesh_.topology(), {}, {}};
+  result.places.reserve(spots_.size());
+  for (const Spot& s : spots_) result.places.push_back(s.place);
   return result;
 }
 
@@ -614,7 +622,14 @@ IsotropicMesh isotropic_mesh(const Hierarchy& levels, const std::vector<Point>& 
     throw Error(Fault::usage, "edges that short would make more than 100 million triangles; make them longer");
   int start = levels.finest();  // half to twice as many triangles as wanted
   while (start > 0 && static_cast<double>(levels.topology(start).triangles.size()) > 2 * wanted) --start;
-  return IsotropicMesher(base, points, std::move(edges), levels.topology(start)).run(wanted);
+  const std::vector<Point> uneven = without_symmetry(points, *std::min_element(edges.begin(), edges.end()));
+  const OwnOrder order = own_order(levels.topology(start), uneven);
+  IsotropicMesh mesh = IsotropicMesher(base, uneven, std::move(edges), order).run(wanted);
+  mesh.points.resize(mesh.places.size());
+  parallel_for(mesh.points.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) mesh.points[v] = point_at(base.triangles, points, mesh.places[v]);
+  });
+  return mesh;
 }
 
 }  // namespace pelage

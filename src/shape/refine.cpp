@@ -145,7 +145,8 @@ void split_attribute(const Topology& coarse, Attribute& attribute) {
 
 TriangleMesh split_at_midpoints(const TriangleMesh& mesh) {
   const Topology coarse = make_topology(mesh.points.size(), mesh.triangles);
-  TriangleMesh result{split_points(coarse, mesh.points), split_triangles(coarse), mesh.attributes};
+  TriangleMesh result{split_points(coarse, mesh.points), split_triangles(coarse), mesh.attributes, mesh.links,
+                      mesh.metres_per_unit};
   for (Attribute& a : result.attributes) split_attribute(coarse, a);
   return result;
 }

@@ -118,6 +118,7 @@ Attribute renewed_normals(const Attribute& old, const PolygonMesh& mesh, const s
 PolygonMesh as_in_file(const SourceShape& source, const TriangleMesh& mesh) {
   const std::vector<std::int32_t> vertex = completed(source);
   PolygonMesh result = source.polygons;
+  result.metres_per_unit = mesh.metres_per_unit;
   result.points = moved_points(source.polygons, vertex, mesh.points);
   for (const Attribute& a : mesh.attributes)
     if (a.domain == Domain::vertex) result.set(gathered(at_corners(a, vertex), source.polygons));

@@ -85,7 +85,7 @@ PolygonMesh split_corners(PolygonMesh mesh) {
 
 TriangleMesh split_corners(const TriangleMesh& mesh) {
   PolygonMesh split = split_corners(polygons_of(mesh));
-  TriangleMesh result{std::move(split.points), {}, std::move(split.attributes), mesh.links};
+  TriangleMesh result{std::move(split.points), {}, std::move(split.attributes), mesh.links, mesh.metres_per_unit};
   result.triangles.reserve(mesh.triangles.size());
   for (std::size_t c = 0; c < split.corners.size(); c += 3)
     result.triangles.push_back({split.corners[c], split.corners[c + 1], split.corners[c + 2]});

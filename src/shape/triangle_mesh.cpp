@@ -56,6 +56,7 @@ PolygonMesh polygons_of(const TriangleMesh& mesh) {
   result.points = mesh.points;
   result.attributes = mesh.attributes;
   result.links = mesh.links;
+  result.metres_per_unit = mesh.metres_per_unit;
   result.corners.reserve(3 * mesh.triangles.size());
   result.face_ends.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) {

@@ -138,7 +138,8 @@ class EarClipper {
 std::array<std::array<std::size_t, 3>, 2> cut_quad(const std::vector<Flat>& q, const std::vector<char>& keep) {
   const double along_02 = std::min(quality(q[0], q[1], q[2]), quality(q[0], q[2], q[3]));
   const double along_13 = std::min(quality(q[1], q[2], q[3]), quality(q[1], q[3], q[0]));
-  constexpr double tie = 1e-12;  // rounding must not choose between the diagonals of a square
+  // Rounding, that of floats far from the origin too, must not choose between the diagonals of a square.
+  constexpr double tie = 1e-4;
   const bool keep_02 = keep[0] || keep[2], keep_13 = keep[1] || keep[3];
   if (keep_13 != keep_02 ? keep_13 : along_13 > along_02 + tie) return {{{1, 2, 3}, {1, 3, 0}}};
   return {{{0, 1, 2}, {0, 2, 3}}};
@@ -309,6 +310,7 @@ Triangulation triangulate(PolygonMesh polygons, std::vector<Finding>& findings) 
     result.mesh.set(std::move(attribute));
   }
   result.mesh.links = std::move(polygons.links);
+  result.mesh.metres_per_unit = polygons.metres_per_unit;
   result.mesh.points = std::move(polygons.points);
   return result;
 }

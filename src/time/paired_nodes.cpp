@@ -56,7 +56,7 @@ const NodeLoops& node_loops(InstructionSet set) {
   }
 }
 
-SlicedMatrix slice(std::span<const SharedMatrix> stiffness, const SparseMatrix& mass, const Vector& lumped,
+SlicedMatrix slice(std::span<const SharedMatrix> stiffness, const SparseMatrix& mass, const Vector& lumped, double area,
                    const std::vector<char>* held) {
   const SparsePattern& pattern = *stiffness[0]->pattern;
   const std::size_t count = stiffness.size();
@@ -89,7 +89,7 @@ SlicedMatrix slice(std::span<const SharedMatrix> stiffness, const SparseMatrix& 
                 if (pattern.column[e] == static_cast<std::int32_t>(i)) continue;
                 m.column[at] = pattern.column[e];
                 for (std::size_t lane = 0; lane < count; ++lane)
-                  m.diffusion[count * at + lane] = static_cast<float>(scale * stiffness[lane]->value[e]);
+                  m.diffusion[count * at + lane] = static_cast<float>(area * scale * stiffness[lane]->value[e]);
                 if (corrected) m.correction[at] = static_cast<float>(scale * mass.value[e]);
                 at += slice_rows;
               }

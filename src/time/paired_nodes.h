@@ -48,16 +48,17 @@ struct SlicedMatrix {
   std::vector<std::size_t> start;
   AlignedVector<std::int32_t> column;  ///< empty where `near` serves
   AlignedVector<std::int16_t> near;    ///< column less the first row of the slice, which is less to read
-  AlignedVector<float> diffusion;      ///< -L^-1 K; with two K first those of the first, then of the second of a pair
-                                       ///< of species: entry e of row 8 s + k at 2 (8 (start[s] + e) + k)
-  bool twin = false;                   ///< two K
-  AlignedVector<float> correction;     ///< E = I - L^-1 M; empty where M is diagonal
+  AlignedVector<float>
+      diffusion;  ///< -a L^-1 K with an area a, which makes it a number; with two K first those of the first, then of
+                  ///< the second of a pair of species: entry e of row 8 s + k at 2 (8 (start[s] + e) + k)
+  bool twin = false;                ///< two K
+  AlignedVector<float> correction;  ///< E = I - L^-1 M; empty where M is diagonal
 
   std::size_t slices() const { return start.size() - 1; }
 };
 
-/// `stiffness`: one K, or two. `lumped`: L. Rows of held nodes are zero. Of one size and pattern all.
-SlicedMatrix slice(std::span<const SharedMatrix> stiffness, const SparseMatrix& mass, const Vector& lumped,
+/// `stiffness`: one K, or two. `lumped`: L. `area`: a. Rows of held nodes are zero. Of one size and pattern all.
+SlicedMatrix slice(std::span<const SharedMatrix> stiffness, const SparseMatrix& mass, const Vector& lumped, double area,
                    const std::vector<char>* held);
 
 /// What makes a stage out of the ones before, for differences from the start of the step:

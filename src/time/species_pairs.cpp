@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "base/parallel.h"
@@ -18,7 +19,7 @@ bool SpeciesPairs::unchanged(const System& system) const {
     const SpeciesPair& p = pairs_[place_[i] / 2];
     const std::size_t lane = place_[i] % 2;
     const Species& s = system.species[i];
-    if (p.diffusion[lane] != static_cast<float>(s.diffusion)) return false;
+    if (p.diffusion[lane] != static_cast<float>(s.diffusion / area_)) return false;
     return s.diffusion == 0 ||
            (p.stiffness[p.stiffness.size() == 2 ? lane : 0] == s.stiffness && p.mass == mass_of(system, i));
   });
@@ -28,6 +29,10 @@ bool SpeciesPairs::update(const System& system) {
   if (unchanged(system)) return false;
   species_ = system.species.size();
   held_ = system.held;
+  const Vector& weight = system.sampling->weight;
+  area_ = std::accumulate(weight.begin(), weight.end(), 0.0) /
+          static_cast<double>(std::max<Eigen::Index>(1, weight.size()));
+  if (!(area_ > 0)) area_ = 1;
   evolving_.clear();
   for (std::size_t i = 0; i < species_; ++i)
     if (!system.species[i].follows) evolving_.push_back(i);
@@ -58,7 +63,7 @@ void SpeciesPairs::pair_alike(const System& system) {
       p->stiffness = {s.stiffness};
       p->mass = mass_of(system, i);
     }
-    p->diffusion[p->count] = static_cast<float>(s.diffusion);
+    p->diffusion[p->count] = static_cast<float>(s.diffusion / area_);
     p->species[p->count++] = i;
   }
 }
@@ -92,7 +97,7 @@ std::size_t SpeciesPairs::keep_operator(const System& system, const SpeciesPair&
     operators_.push_back(std::move(*old));
   } else {
     const std::size_t diffusing = pair.species[pair.diffusion[0] != 0 ? 0 : 1];
-    SlicedMatrix sliced = slice(pair.stiffness, *pair.mass, weight_of(system, diffusing), system.held.get());
+    SlicedMatrix sliced = slice(pair.stiffness, *pair.mass, weight_of(system, diffusing), area_, system.held.get());
     const std::array<double, 2> radius = radius_of(sliced);
     operators_.push_back({pair.stiffness, pair.mass, system.held, std::move(sliced), radius});
   }

@@ -13,7 +13,7 @@ namespace pelage {
 struct SpeciesPair {
   std::array<std::size_t, 2> species{};
   std::size_t count = 0;
-  std::array<float, 2> diffusion{};
+  std::array<float, 2> diffusion{};     ///< D / a: as the operator has it, a number, so that no unit is in the rounding
   std::vector<SharedMatrix> stiffness;  ///< none where nothing diffuses, one for both species, or one for each
   SharedMatrix mass;
   std::size_t matrix = 0;  ///< which of the operators, where something diffuses
@@ -50,7 +50,7 @@ class SpeciesPairs {
     SharedMatrix mass;
     std::shared_ptr<const Held> held;
     SlicedMatrix sliced;
-    std::array<double, 2> radius{};  ///< of either species, with D = 1
+    std::array<double, 2> radius{};  ///< of either species, with D = a
   };
   bool unchanged(const System& system) const;
   void pair_alike(const System& system);
@@ -66,6 +66,7 @@ class SpeciesPairs {
   std::vector<Operator> operators_;
   std::shared_ptr<const Held> held_;
   std::size_t species_ = 0;
+  double area_ = 1;  ///< a: the mean of a node
 };
 
 }  // namespace pelage

@@ -133,7 +133,7 @@ TEST_F(Textures, LayersReadThemAtTheVerticesOfTheCoat) {
   const Texture dot = read_texture((folder / "dot.png").string());
   const Recipe coat = recipe(
       "texture = { name = \"dot\", file = \"dot.png\" }\n[stage]\n" + standing("1") +
-      "size = 2\nmethod = \"linear\"\n[look]\ndetail = 6\n[[look.layers]]\ncolor = \"#000000\"\n[[look.layers]]\n"
+      "size = 1\nmethod = \"linear\"\n[look]\ndetail = 6\n[[look.layers]]\ncolor = \"#000000\"\n[[look.layers]]\n"
       "color = \"#ffffff\"\nopacity = \"attribute(dot)\"\n");
   const TriangleMesh mesh = dress(Growth(make_program(coat, square(1))).fields(), coat.look);
   const std::vector<double>& color = mesh.find("color")->values;

@@ -1,11 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <optional>
 
 #include "io/read_text.h"
 #include "pelage/io.h"
+#include "shape/generators.h"
 #include "shape/sample_meshes.h"
 
 namespace pelage {
@@ -80,6 +84,48 @@ TEST_F(ReadShape, BlendersFilesStandOnZ) {
   EXPECT_EQ(read_shape(folder_ + "up.glb").mesh.points[2], (Point{0, 0, -1}));
   save(guessed.mesh, folder_ + "as_is.ply", {"a", guessed.up});
   EXPECT_EQ(read_shape(folder_ + "as_is.ply").mesh.points[2], (Point{0, 1, 0}));
+}
+
+/// STL is millimetres to all programs for printing, glTF metres by its standard; the others do not say.
+TEST_F(ReadShape, UnitsOfFormats) {
+  const TriangleMesh mesh = builtin_shape("builtin:cube?n=100");
+  EXPECT_EQ(read_shape("builtin:cube?n=100").mesh.metres_per_unit, 1);
+  const std::map<std::string, std::optional<double>> units = {
+      {".stl", 0.001}, {".glb", 1.0}, {".obj", {}}, {".ply", {}}, {".off", {}}};
+  for (const auto& [extension, unit] : units) {
+    SCOPED_TRACE(extension);
+    save(mesh, folder_ + "a" + extension);
+    const ShapeFile file = read_shape(folder_ + "a" + extension);
+    EXPECT_EQ(file.mesh.metres_per_unit, unit);
+    EXPECT_EQ(file.source->polygons.metres_per_unit, unit);
+    EXPECT_EQ(as_in_file(*file.source, file.mesh).metres_per_unit, unit);
+    const auto said = std::ranges::count(file.findings, "unit", &Finding::kind);
+    EXPECT_EQ(said, extension == ".stl" ? 1 : 0);
+  }
+}
+
+/// The numbers stay, and the node makes metres of them: what comes back is in metres, once and for all.
+TEST_F(ReadShape, MillimetresThroughGlb) {
+  for (const double offset : {0.0, 5.4e6}) {
+    TriangleMesh mesh = builtin_shape("builtin:cube?n=100");
+    for (Point& p : mesh.points) p[1] += offset;
+    mesh.metres_per_unit = 0.001;
+    save(mesh, folder_ + "mm.glb");
+    const TriangleMesh metres = read_shape(folder_ + "mm.glb").mesh;
+    EXPECT_EQ(metres.metres_per_unit, 1);
+    save(metres, folder_ + "m.glb");
+    const TriangleMesh again = read_shape(folder_ + "m.glb").mesh;
+    ASSERT_EQ(metres.points.size(), mesh.points.size());
+    for (std::size_t v = 0; v < mesh.points.size(); ++v)
+      for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_NEAR(metres.points[v][k], 0.001 * mesh.points[v][k], 1e-9);
+        EXPECT_NEAR(again.points[v][k], metres.points[v][k], 1e-9);
+      }
+    for (const char* name : {"mm.ply", "mm.obj", "mm.off"}) {
+      save(mesh, folder_ + name);
+      EXPECT_EQ(read_shape(folder_ + name).mesh.points, mesh.points) << name;
+    }
+  }
 }
 
 TEST_F(ReadShape, FilesThatAreNone) {

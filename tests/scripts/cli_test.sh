@@ -83,6 +83,51 @@ succeed check down.glb --json && json "abs($height - 1) < 1e-6"
 succeed fair tower.ply --steps 0 -o up.glb
 succeed check up.glb --json && json "abs($height - 9) < 1e-6"
 
+# --- units ------------------------------------------------------------------------------------------------
+# A part of 60 x 40 x 10 of whatever the file counts.
+cat >part.obj <<'OBJ'
+v 0 0 0
+v 60 0 0
+v 60 40 0
+v 0 40 0
+v 0 0 10
+v 60 0 10
+v 60 40 10
+v 0 40 10
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+OBJ
+part=(--steps 1 --detail 0)
+succeed fair part.obj --steps 0 -q -o part.stl,part.ply,part.off
+succeed check part.stl --json && json 'd["metres_per_unit"] == 0.001'
+succeed check part.obj --json && json 'd["metres_per_unit"] is None'
+succeed grow part.stl --size 4mm "${part[@]}" -o a.ply
+grep -q '^noted .*STL says no unit: taken as millimetres' stdout || fail "the unit of STL was not said"
+grep -q '^unit  *mm: the shape is 60 x 40 x 10 mm' stdout || fail "the unit that was taken was not said"
+grep -q 'wavelength of 4 world units = 4 mm' stdout || fail "4mm on a part in millimetres is not 4"
+for other in obj ply off; do
+  expect 2 '60 units across, 60 m or 60 mm; give --input-unit' grow part.$other --size 4mm "${part[@]}" -o a.ply
+  succeed grow part.$other --size 4mm --input-unit mm "${part[@]}" -o a.ply --json
+  json 'd["stages"][0]["size"] == 4 and d["shape"]["metres_per_unit"] == 0.001'
+done
+succeed grow part.stl --size 1ft --input-unit in "${part[@]}" -o a.ply --json
+json 'abs(d["stages"][0]["size"] - 12) < 1e-12 and not d["shape"]["findings"]'
+expect 2 'unknown unit "inch"' grow part.stl --input-unit inch "${part[@]}" -o a.ply
+expect 2 'size 4 is 4 diagonals .* write 4u for 4 units of the file' grow part.stl --size 4 "${part[@]}" -o a.ply
+expect 2 'size 4 is 4 diagonals' gallery --shape part.stl --size 4 -o units turing
+expect 2 '60 units across' gallery --shape part.obj --size 4mm -o units turing
+# glTF counts metres, the other formats keep the numbers of the file.
+succeed grow part.stl --size 4mm "${part[@]}" --keep-shape -q -o part.glb,kept.ply
+succeed check part.glb --json && json 'abs(d["high"][0] - 0.06) < 1e-8 and d["metres_per_unit"] == 1'
+succeed check kept.ply --json && json 'd["high"][0] == 60'
+succeed grow part.glb --size 4mm "${part[@]}" -o a.ply --json && json 'abs(d["stages"][0]["size"] - 0.004) < 1e-12'
+succeed fair part.obj --steps 0 --input-unit cm -q -o cm.glb
+succeed check cm.glb --json && json 'abs(d["high"][0] - 0.6) < 1e-7'
+
 # --- direction fields -------------------------------------------------------------------------------------
 succeed field $sphere -n 1 -o field.vtp,field.ply --picture field.png --picture-size 60 --json
 is_json stdout
