@@ -143,11 +143,18 @@ void print_conditions(const Analysis& a) {
   for (const std::string& line : a.thresholds_in_words) std::printf("  %s\n", line.c_str());
 }
 
+/// Of models without a wavelength of their own.
+void print_sizing(const Analysis& a) {
+  constexpr double share = 0.01;  // of the diagonal; patterns are some times as large
+  std::fputs("\nSizes: no wavelength is known, so give --unit, the length of a model unit, instead of --size", stdout);
+  if (a.resolved)
+    std::printf("; --unit %s lets fronts be 0.01 of the diagonal wide, waves some times that",
+                brief(share / *a.resolved).c_str());
+  std::puts("");
+}
+
 void print_limits(const Analysis& a) {
-  if (a.largest_steps.empty()) {
-    std::puts("\nLargest stable steps: unknown, since no wavelength sets the mesh");
-    return;
-  }
+  if (a.largest_steps.empty()) return print_sizing(a);
   std::printf("\nLargest stable steps, for %s control vertices per wavelength of %s\n", number(a.resolution).c_str(),
               number(*a.spacing).c_str());
   std::vector<std::vector<std::string>> rows;
@@ -210,6 +217,7 @@ Json to_json(const Analysis& a, const std::string& name, const std::vector<Param
           {"conditions", conditions},
           {"thresholds", thresholds},
           {"wavelength", json_number(a.spacing)},
+          {"resolved_length", json_number(a.resolved)},
           {"largest_steps", steps}};
 }
 

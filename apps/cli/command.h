@@ -20,6 +20,7 @@ struct Command {
 Command add_grow(CLI::App& parent);
 Command add_check(CLI::App& parent);
 Command add_models(CLI::App& parent);
+Command add_formulas(CLI::App& parent);
 Command add_analyse(CLI::App& parent);
 Command add_map(CLI::App& parent);
 Command add_gallery(CLI::App& parent);

@@ -126,7 +126,10 @@ void finish(const FairCommand& command, const ShapeFile& file, const Result& res
 }
 
 void run_fair(const FairCommand& command) {
-  for (const std::string& path : command.outputs) check_mesh_path(path);
+  for (const std::string& path : command.outputs) {
+    check_mesh_path(path);
+    refuse_input_as_output(path, command.shape);
+  }
   catch_interrupts();
   ProgressBar bar(command.quiet || command.json ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
   const ShapeFile file = read_shape(command.shape, command.input_unit);

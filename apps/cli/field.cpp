@@ -143,7 +143,10 @@ void report(const FieldCommand& o, const ShapeFile& file, const std::vector<std:
 }
 
 void run_field(const FieldCommand& o) {
-  for (const std::string& path : o.outputs) check_mesh_path(path);
+  for (const std::string& path : o.outputs) {
+    check_mesh_path(path);
+    refuse_input_as_output(path, o.shape);
+  }
   if (!o.picture.empty()) {
     check_picture_path(o.picture);
     check_picture_size(o.size, o.size, o.picture);

@@ -88,6 +88,7 @@ void do_job(const Job& job, const GalleryOptions& options, const std::function<b
     if (image.rgb.empty()) return;
     write_png(with_caption(image, short_name(*job.subject) + ", " + job.shape->name, job.subject->title),
               (std::filesystem::path(options.folder) / job.picture->file).string());
+    job.picture->made = true;
     report(1);
   } catch (const Error& error) {
     if (error.fault() == Fault::output) throw;
@@ -102,7 +103,8 @@ std::vector<GalleryEntry> empty_entries(const std::vector<GallerySubject>& subje
   for (const GallerySubject& subject : subjects) {
     entries.push_back({subject.name, subject.title, subject.summary, subject.cite, {}});
     for (const GalleryShape& s : shapes)
-      entries.back().pictures.push_back({file_name(subject, s.name), subject.name + " on the " + s.name, "", ""});
+      entries.back().pictures.push_back(
+          {file_name(subject, s.name), subject.name + " on the " + s.name, "", "", false});
   }
   return entries;
 }
@@ -136,16 +138,29 @@ std::vector<Job> jobs_for(const std::vector<GallerySubject>& subjects, const std
   return jobs;
 }
 
-void make_pictures(const std::vector<Job>& jobs, const GalleryOptions& options, const Progress& progress) {
+/// False when it was interrupted.
+bool make_pictures(const std::vector<Job>& jobs, const GalleryOptions& options, const Progress& progress) {
   JobProgress job_progress(progress, "making the pictures", jobs.size());
   parallel_chunks(jobs.size(), [&](std::size_t j) {
     const auto report = [&](double fraction) { return job_progress.report(j, fraction); };
     if (!report(0)) return;
     run_on_one_thread([&] { do_job(jobs[j], options, report); });
   });
-  if (job_progress.cancelled())
-    throw Error(Fault::cancelled, "interrupted; the pictures that were finished are in " + options.folder +
-                                      ", the index was not written");
+  return !job_progress.cancelled();
+}
+
+/// The page then shows what was finished, and names the rest.
+[[noreturn]] void interrupted(const std::vector<Job>& jobs, const std::string& index,
+                              const std::function<void()>& write_index) {
+  std::size_t made = 0;
+  for (const Job& job : jobs) {
+    made += job.picture->made;
+    if (!job.picture->made && job.picture->failure.empty()) job.picture->failure = "interrupted before it was made";
+  }
+  if (made == 0) throw Error(Fault::cancelled, "interrupted; no picture was finished");
+  write_index();
+  throw Error(Fault::cancelled, "interrupted; " + index + " shows the " + std::to_string(made) + " of " +
+                                    std::to_string(jobs.size()) + " pictures that were finished");
 }
 
 /// Lengths that a shape cannot give are refused before any work.
@@ -205,9 +220,12 @@ void gallery(const GalleryOptions& options) {
   const ThreadLimit threads(options.threads);
   ProgressBar bar(options.quiet ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
   const std::vector<Job> jobs = jobs_for(subjects, shapes, entries);
-  make_pictures(jobs, options, bar.progress());
   const std::string index = (std::filesystem::path(options.folder) / "index.html").string();
-  write_file(index, gallery_page(options.recipes ? "Recipes" : "Models", entries, options.picture_size));
+  const auto write_index = [&] {
+    write_file(index, gallery_page(options.recipes ? "Recipes" : "Models", entries, options.picture_size));
+  };
+  if (!make_pictures(jobs, options, bar.progress())) interrupted(jobs, index, write_index);
+  write_index();
   bar.clear();
   warn_of_uniform_pictures(jobs);
   report_failures(jobs, options.folder);

@@ -11,6 +11,7 @@ struct GalleryPicture {
   std::string caption;  ///< what it shows
   std::string failure;  ///< instead of the picture, if not empty
   std::string uniform;  ///< why it shows no pattern, if it shows none
+  bool made = false;    ///< the file is there
 };
 
 /// A model, a variant or a recipe.

@@ -137,10 +137,16 @@ void write_outputs(const GrowOptions& options, const Mesh& coat, const SaveOptio
   }
 }
 
+/// Built-in shapes are of no other form.
+SourceShape form_of_shape(const ShapeFile& file, const TriangleMesh& shape) {
+  if (file.source) return *file.source;
+  PolygonMesh polygons = polygons_of(shape);
+  std::vector<std::int32_t> vertex(polygons.corners.begin(), polygons.corners.end());
+  return {std::move(polygons), std::move(vertex)};
+}
+
 /// The file's own mesh and attributes with what the coat adds to them.
-PolygonMesh kept_shape(const ShapeFile& file, const TriangleMesh& coat, const Paint& paint) {
-  if (!file.source) return polygons_of(coat);
-  SourceShape source = *file.source;
+PolygonMesh kept_shape(SourceShape source, const TriangleMesh& coat, const Paint& paint) {
   rename_input(source.polygons.attributes, paint);
   TriangleMesh added = coat;
   std::erase_if(added.attributes, [&](const Attribute& a) { return source.polygons.find(a.name) != nullptr; });
@@ -199,10 +205,12 @@ Grown grown_coat(const GrowOptions& options, const Plan& planned, const Look& lo
 
 void grow(const GrowOptions& options) {
   const Recipe recipe = make_recipe(options);
+  const Plan planned = plan(recipe);
   check_outputs(options, recipe.shape);
   if (!options.panels.empty() && !recipe.motion.fair)
     throw Error(Fault::usage, "--panels shows what --fair does; give it too");
-  const Plan planned = plan(recipe);
+  check_inputs(options, recipe);
+  require_outputs(options);
   catch_interrupts();
   const ThreadLimit threads(options.threads.value_or(0));
   ProgressBar bar(options.quiet ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
@@ -222,7 +230,8 @@ void grow(const GrowOptions& options) {
   const UpAxis up = options.up.value_or(file.up);
   const SaveOptions form{object_name(recipe.shape), up};
   if (recipe.look.keep_shape)
-    write_outputs(options, kept_shape(file, grown.coat, grown.paint), form, progress, report);
+    write_outputs(options, kept_shape(form_of_shape(file, *grown.shape), grown.coat, grown.paint), form, progress,
+                  report);
   else
     write_outputs(options, grown.coat, form, progress, report);
   const PictureOptions picture = picture_options(options, *planned.quality, up);

@@ -11,13 +11,18 @@
 #include "catalog/size.h"
 #include "input_unit.h"
 #include "io/atomic_file.h"
+#include "io/file_bytes.h"
 #include "io/png_writer.h"
+#include "io/read_shape.h"
 #include "io/write_mesh.h"
 #include "look/ramp.h"
+#include "outputs.h"
 #include "panels.h"
+#include "pelage/analyse.h"
 #include "pelage/fair.h"
 #include "pelage/grow.h"
 #include "pelage/io.h"
+#include "recipe/document.h"
 #include "settings.h"
 #include "shape/generators.h"
 #include "time/stepper.h"
@@ -354,10 +359,27 @@ void apply(const GrowOptions& o, Look& look) {
     throw Error(Fault::usage, "--keep-shape splits nothing: leave --detail out, or take --flat instead");
 }
 
-void refuse_input_as_output(const std::string& output, const std::string& shape) {
+bool is_known(const std::string& name, const std::vector<std::string>& names) {
+  return std::ranges::count(names, name) > 0;
+}
+
+/// "model" or "recipe" where that was given in the place of a shape; else empty.
+std::string other_than_shape(const std::string& shape) {
+  if (shape.ends_with(".toml")) {
+    const Value document = read_document(shape);
+    return document.find("stage") ? "recipe" : "model";
+  }
   std::error_code ignored;
-  if (!is_builtin_shape(shape) && std::filesystem::equivalent(output, shape, ignored))
-    throw Error(Fault::usage, "the output " + output + " is the input itself; give it another name");
+  if (std::filesystem::exists(shape, ignored)) return "";
+  if (is_known(shape, model_names())) return "model";
+  return is_known(shape, recipe_names()) ? "recipe" : "";
+}
+
+void refuse_other_than_shape(const std::string& shape) {
+  const std::string kind = other_than_shape(shape);
+  if (kind.empty()) return;
+  throw Error(Fault::usage, shape + " is a " + kind + ", no shape to grow on; write pelage grow SHAPE --" + kind + " " +
+                                shape + ", where SHAPE is a file or for example builtin:animal");
 }
 
 }  // namespace
@@ -375,6 +397,7 @@ void add_options(CLI::App& app, GrowOptions& options) {
 }
 
 Recipe make_recipe(const GrowOptions& options) {
+  refuse_other_than_shape(options.shape);
   Recipe recipe;
   if (options.recipe) recipe = load_recipe(*options.recipe);
   if (!options.shape.empty()) recipe.shape = options.shape;
@@ -388,9 +411,18 @@ Recipe make_recipe(const GrowOptions& options) {
   return recipe;
 }
 
-void check_outputs(const GrowOptions& options, const std::string& shape) {
+void check_inputs(const GrowOptions& options, const Recipe& recipe) {
+  for (const TextureFile& texture : recipe.textures) require_file(texture.path);
+  check_shape_path(recipe.shape);
+  if (!options.resume.empty()) require_file(options.resume);
+}
+
+void require_outputs(const GrowOptions& options) {
   if (options.outputs.empty() && options.picture.empty() && options.panels.empty())
     throw Error(Fault::usage, "nothing to write; give -o FILE, --picture FILE or both");
+}
+
+void check_outputs(const GrowOptions& options, const std::string& shape) {
   for (const std::string& output : options.outputs) {
     check_mesh_path(output);
     refuse_input_as_output(output, shape);

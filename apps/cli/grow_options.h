@@ -41,8 +41,14 @@ void add_options(CLI::App& app, GrowOptions& options);
 /// understood, and when there is no shape.
 Recipe make_recipe(const GrowOptions& options);
 
-/// Refuses outputs that could not be written after the work: Error(Fault::usage) when there is none, for unknown
-/// extensions and for an output that is the input; Error(Fault::output) for folders.
+/// Files that are to be read are there: Error(Fault::input) if not.
+void check_inputs(const GrowOptions& options, const Recipe& recipe);
+
+/// Error(Fault::usage) when nothing would be written.
+void require_outputs(const GrowOptions& options);
+
+/// Refuses outputs that could not be written after the work: Error(Fault::usage) for unknown extensions and for an
+/// output that is the input; Error(Fault::output) for folders.
 void check_outputs(const GrowOptions& options, const std::string& shape);
 
 }  // namespace pelage

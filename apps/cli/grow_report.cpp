@@ -69,6 +69,12 @@ std::string world_length_in_words(double length, const TriangleMesh& shape) {
   return number(length) + " world units" + (unit ? " = " + length_in_words(length * *unit) : "");
 }
 
+/// A model whose wavelength nobody knows is sized by its unit.
+std::string size_in_words(const StageProgram& p, const TriangleMesh& shape) {
+  return p.size_known ? " at a wavelength of " + world_length_in_words(p.size, shape)
+                      : " of unknown wavelength, its unit " + world_length_in_words(p.length_unit, shape);
+}
+
 }  // namespace
 
 void GrowReport::line(const std::string& label, const std::string& text) {
@@ -106,12 +112,14 @@ void GrowReport::pattern(const Run& run) {
   const Topology& topology = world.topology();
   const double diagonal = box_of(world.points()).diagonal();
   double finest = std::numeric_limits<double>::infinity();
+  bool finest_known = true;
   json_["stages"] = Json::array();
   for (const StageProgram& p : run.program().stages) {
+    if (p.size < finest) finest_known = p.size_known;
     finest = std::min(finest, p.size);
     const std::string name = run.program().stages.size() > 1 ? p.name + ": " : "";
-    line("pattern", name + p.model_name + " at a wavelength of " + world_length_in_words(p.size, *run.program().shape) +
-                        " (" + brief(p.size / diagonal) + " of the diagonal)");
+    line("pattern", name + p.model_name + size_in_words(p, *run.program().shape) + " (" +
+                        brief((p.size_known ? p.size : p.length_unit) / diagonal) + " of the diagonal)");
     if (!p.follows.empty()) line("following", name + p.follows);
     Json parameters = Json::object();
     for (const ParameterSource& parameter : p.model.parameters()) parameters[parameter.name] = parameter.value;
@@ -120,6 +128,7 @@ void GrowReport::pattern(const Run& run) {
                                {"parameters", parameters},
                                {"size", p.size},
                                {"size_of_diagonal", p.size / diagonal},
+                               {"size_known", p.size_known},
                                {"length_unit", p.length_unit},
                                {"stepper", p.stepper->name},
                                {"seed", p.seed}});
@@ -128,7 +137,7 @@ void GrowReport::pattern(const Run& run) {
   const Method& method = *run.program().method;
   const double density = finest / prevailing_edge(topology.triangles, world.space().control());
   line("mesh", meshing(method, world.levels()) + ": " + counted(topology.vertex_count, "vertex") + ", " +
-                   brief(density) + " per wavelength");
+                   brief(density) + " per " + (finest_known ? "wavelength" : brief(finest) + " world units"));
   json_["method"] = method.name;
   json_["refinements"] = world.levels();
   json_["control_vertices"] = topology.vertex_count;

@@ -18,12 +18,12 @@ std::string without_end(std::string text) {
 HelpFormat::HelpFormat() {
   column_width(first_column);
   label("SUBCOMMAND", "COMMAND");
-  label("Subcommands", "Commands");
 }
 
 std::string HelpFormat::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
   std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
   for (std::size_t at; (at = text.find("\n\n\n")) != std::string::npos;) text.erase(at, 1);
+  if (const std::size_t at = text.find("\nSubcommands:"); at != std::string::npos) text.replace(at + 1, 11, "Commands");
   return text;
 }
 

@@ -23,7 +23,7 @@ constexpr const char* examples = R"(Examples:
   pelage check cow.obj
   pelage models turing
   pelage analyse turing --set Da=0.15 --plot growth.png
-  pelage grow --help
+  pelage help grow
 
 Exit codes: 0 done; 2 wrong usage, unknown name or parameter; 3 an input that cannot be
 read or used; 4 the computation failed; 5 an output cannot be written; 130 interrupted.)";
@@ -74,9 +74,9 @@ int main(int argc, char** argv) {
   app.formatter(std::make_shared<pelage::HelpFormat>());
   app.footer(examples);
   const std::vector<pelage::Command> commands = {
-      pelage::add_grow(app),  pelage::add_check(app),   pelage::add_models(app),  pelage::add_analyse(app),
-      pelage::add_map(app),   pelage::add_gallery(app), pelage::add_recipes(app), pelage::add_fair(app),
-      pelage::add_field(app), pelage::add_compare(app), pelage::add_verify(app)};
+      pelage::add_grow(app),    pelage::add_check(app), pelage::add_models(app),  pelage::add_formulas(app),
+      pelage::add_analyse(app), pelage::add_map(app),   pelage::add_gallery(app), pelage::add_recipes(app),
+      pelage::add_fair(app),    pelage::add_field(app), pelage::add_compare(app), pelage::add_verify(app)};
   if (argc == 1) {
     std::fputs(app.help().c_str(), stderr);
     return static_cast<int>(Fault::usage);

@@ -4,9 +4,12 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
+#include "catalog/skeleton.h"
 #include "command.h"
+#include "io/atomic_file.h"
 #include "react/stability.h"
 #include "react/wavelength.h"
 #include "table.h"
@@ -230,11 +233,26 @@ Json to_json(const Entry& e) {
 }
 
 struct ModelsOptions {
-  std::string name;
+  std::string name, begun;
   bool json = false;
 };
 
+/// Writes NAME.toml.
+void begin_model(std::string name) {
+  if (name.ends_with(".toml")) name.erase(name.size() - 5);
+  const std::string path = name + ".toml";
+  const std::string text = model_skeleton(name);
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored)) throw Error(Fault::output, "exists already; give another name", {path});
+  write_file(path, text);
+  std::printf("wrote     %s\n", path.c_str());
+  std::printf("try       pelage analyse %s\n", path.c_str());
+  std::printf("          pelage grow builtin:animal --model %s -o %s.glb --picture %s.png\n", path.c_str(),
+              name.c_str(), name.c_str());
+}
+
 void models(const ModelsOptions& options) {
+  if (!options.begun.empty()) return begin_model(options.begun);
   const std::vector<Entry> list = entries(options.name);
   if (options.json) {
     Json array = Json::array();
@@ -256,9 +274,17 @@ Command add_models(CLI::App& parent) {
       "List the reaction models, or show one with its equations\n"
       "Without NAME: a table of the built-in models and their variants. With NAME: equations, "
       "parameters with ranges and units, steady state and wavelength, and where the model comes from.");
-  app->add_option("NAME", options->name, "A model, MODEL:VARIANT, or the path of a model's .toml file")->type_name("");
+  CLI::Option* name =
+      app->add_option("NAME", options->name, "A model, MODEL:VARIANT, or the path of a model's .toml file")
+          ->type_name("");
+  app->add_option("--new", options->begun,
+                  "Write NAME.toml, a model of your own to go on from, with all keys explained")
+      ->type_name("NAME")
+      ->excludes(name);
   app->add_flag("--json", options->json, "Print the result as JSON: an array of models");
-  app->footer("Examples:\n  pelage models\n  pelage models gray-scott:spots\n  pelage models --json");
+  app->footer(
+      "Examples:\n  pelage models\n  pelage models gray-scott:spots\n  pelage models --json\n  pelage models --new "
+      "mine");
   return {app, [options] { models(*options); }};
 }
 

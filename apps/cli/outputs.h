@@ -2,11 +2,13 @@
 // Writing meshes, and saying what their formats cannot hold.
 
 #include <cstdio>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "io/write_mesh.h"
 #include "pelage/io.h"
+#include "shape/generators.h"
 #include "text.h"
 
 namespace pelage {
@@ -26,6 +28,13 @@ std::vector<std::string> save_all(const Mesh& mesh, const std::vector<std::strin
     for (const std::string& loss : losses(mesh, extension_of(path))) warn(path + ": " + loss, warnings);
   }
   return warnings;
+}
+
+/// Error(Fault::usage) where an output would replace the input.
+inline void refuse_input_as_output(const std::string& output, const std::string& shape) {
+  std::error_code ignored;
+  if (!is_builtin_shape(shape) && std::filesystem::equivalent(output, shape, ignored))
+    throw Error(Fault::usage, "the output " + output + " is the input itself; give it another name");
 }
 
 /// A line for each.

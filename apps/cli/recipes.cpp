@@ -1,5 +1,7 @@
 // pelage recipes: the coats that come with the program.
 
+#include "catalog/recipes.h"
+
 #include <cstdio>
 #include <memory>
 
@@ -34,17 +36,34 @@ void print_list_as_json(const std::vector<std::string>& names) {
   print_json(list);
 }
 
+struct RecipesOptions {
+  std::string name;
+  bool json = false;
+};
+
+void recipes(const RecipesOptions& options) {
+  if (!options.name.empty())
+    std::fputs(recipe_text(options.name).c_str(), stdout);
+  else if (options.json)
+    print_list_as_json(recipe_names());
+  else
+    print_list(recipe_names());
+}
+
 }  // namespace
 
 Command add_recipes(CLI::App& parent) {
-  auto json = std::make_shared<bool>(false);
-  CLI::App* app = parent.add_subcommand(
-      "recipes",
-      "List the built-in recipes\n"
-      "These are what grow --recipe NAME knows; --recipe also takes the path of a .toml file of your own.");
-  app->add_flag("--json", *json, "Print the result as JSON");
-  app->footer("Examples:\n  pelage recipes\n  pelage grow --recipe demo -o cub.glb");
-  return {app, [json] { *json ? print_list_as_json(recipe_names()) : print_list(recipe_names()); }};
+  auto options = std::make_shared<RecipesOptions>();
+  CLI::App* app = parent.add_subcommand("recipes",
+                                        "List the built-in recipes, or print one\n"
+                                        "These are what grow --recipe NAME knows; --recipe also takes the path of a "
+                                        ".toml file of your own, which may begin "
+                                        "as a copy of one of these.");
+  CLI::Option* name = app->add_option("NAME", options->name, "Print the text of this one")->type_name("");
+  app->add_flag("--json", options->json, "Print the list as JSON")->excludes(name);
+  app->footer(
+      "Examples:\n  pelage recipes\n  pelage recipes zebra > mine.toml\n  pelage grow --recipe demo -o cub.glb");
+  return {app, [options] { recipes(*options); }};
 }
 
 }  // namespace pelage

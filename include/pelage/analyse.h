@@ -38,6 +38,8 @@ struct Analysis {
   std::vector<std::string> thresholds_in_words;
   std::optional<double> spacing;         ///< of the finished pattern [model length], which Stage::size stretches
   bool spacing_stated = false;           ///< by the model's file, as measured; else it is the fastest wavelength
+  std::optional<double> resolved;        ///< length that a mesh has to resolve where the spacing is unknown: on which
+                                         ///< diffusion is as fast as the reaction [model length]
   double resolution = 0;                 ///< vertices per spacing of the coarsest mesh that carries the pattern
   std::vector<StepLimit> largest_steps;  ///< on such a mesh; none without a spacing
 };

@@ -36,6 +36,7 @@ Analysis analysis_of(const Model& model) {
   a.thresholds = diffusion_thresholds(a.stability);
   a.thresholds_in_words = describe(a.thresholds, a.stability, a.species);
   a.spacing = known_wavelength(model);
+  if (!a.spacing) a.resolved = diffusion_length(model);
   a.spacing_stated = states_wavelength(model.source());
   a.resolution = model.source().suggestions.resolution_or_default();
   if (a.spacing && !a.states.empty()) a.largest_steps = largest_steps(model, *a.spacing, a.resolution);

@@ -88,6 +88,7 @@ StageProgram bind_stage(const PlannedStage& planned, const Program& program, con
   s.size = size.wavelength;
   s.length_unit = size.length_unit;
   s.origin = scale.middle;
+  s.size_known = planned.wavelength_known;
   s.step = asked.step;
   s.suggested_step = suggested.step.value_or(1);
   s.excluded = asked.inside.value == "excluded";

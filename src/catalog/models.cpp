@@ -5,6 +5,7 @@
 
 #include "base/suggest.h"
 #include "catalog/embedded.h"
+#include "pelage/grow.h"
 #include "recipe/document.h"
 
 namespace pelage {
@@ -115,6 +116,8 @@ void for_entries(const Value& document, const std::string& key, Fill&& fill) {
 }
 
 ModelSource model(const Value& document) {
+  if (document.find("stage") && !document.find("species"))
+    throw Error(Fault::usage, "this is a recipe, not a model; give it as --recipe", {document.where().file});
   ModelSource result;
   result.where = document.where();
   result.name = document.at("name").string();
@@ -148,15 +151,22 @@ std::vector<ModelEntry> read_embedded() {
 }
 
 ModelSource load_built_in(const std::string& name) {
-  std::vector<std::string> names;
+  std::vector<std::string> all, models;  // with and without variants
   for (const ModelEntry& entry : model_list()) {
     if (entry.name == name) return entry.source;
-    names.push_back(entry.name);
+    all.push_back(entry.name);
+    if (entry.name == entry.source.name) models.push_back(entry.name);
   }
-  const std::string hint = did_you_mean(name, names);
-  throw Error(Fault::usage,
-              "unknown model \"" + name + "\"; " +
-                  (hint.empty() ? "there are " + join_names(names) + ", or give the path of a .toml file" : hint));
+  std::string hint = did_you_mean(name, all);
+  const std::size_t colon = name.find(':');
+  if (hint.empty() && std::ranges::count(models, name.substr(0, colon)) > 0)
+    return with_variant(load_built_in(name.substr(0, colon)), name.substr(colon + 1));  // says which there are
+  if (std::ranges::count(recipe_names(), name) > 0) hint = "it is a recipe: give it as --recipe " + name;
+  throw Error(Fault::usage, "unknown model \"" + name + "\"; " +
+                                (hint.empty() ? "there are " + join_names(models) +
+                                                    ", each with variants (pelage models "
+                                                    "lists them), or give the path of a .toml file"
+                                              : hint));
 }
 
 }  // namespace

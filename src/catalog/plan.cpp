@@ -145,6 +145,13 @@ std::optional<PlaceFormula> plan_size_map(const Stage& stage, const Model& model
   return known_from_mesh(formula) ? std::optional(std::move(formula)) : std::nullopt;
 }
 
+/// Where the model's unit is given, the wavelength serves the mesh alone: where none is known, what diffusion needs.
+void set_wavelength(const Model& model, PlannedStage& stage) {
+  const auto resolved = stage.asked.unit && !known_wavelength(model) ? diffusion_length(model) : std::nullopt;
+  stage.wavelength_known = !resolved;
+  stage.wavelength = resolved ? *resolved : model_wavelength(model);
+}
+
 PlannedStage plan_stage(const Stage& stage, const Recipe& recipe, const Method& method,
                         const std::vector<PlannedStage>& before, const Components& components) {
   PlannedStage p;
@@ -160,7 +167,7 @@ PlannedStage plan_stage(const Stage& stage, const Recipe& recipe, const Method& 
   if (stage.directions) plan_directions(*stage.directions, p);
   p.size_map = plan_size_map(stage, p.model);
   require_sizes(stage);
-  p.wavelength = model_wavelength(plain);
+  set_wavelength(plain, p);
   p.until = stage.until.value_or(source.suggestions.end.value_or(1000));
   return p;
 }

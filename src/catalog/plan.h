@@ -18,6 +18,7 @@ struct PlannedStage {
   Stage asked;            ///< what the recipe says
   Model model;            ///< with what the stage changes in it
   double wavelength = 0;  ///< of the model with its numbers, before formulas take the place of any [model length]
+  bool wavelength_known = true;  ///< false: it is diffusion_length()
   const StepperKind* stepper = nullptr;
   std::optional<PlaceFormula> size_map;  ///< where a mesh alone tells it
   std::optional<PlaceFormula> from, to;  ///< of the directions

@@ -1,3 +1,5 @@
+#include "catalog/recipes.h"
+
 #include "base/suggest.h"
 #include "catalog/embedded.h"
 #include "pelage/grow.h"
@@ -9,6 +11,8 @@ namespace {
 
 constexpr std::string_view recipe_folder = "recipes/", extension = ".toml";
 
+std::string path_of(const std::string& name) { return std::string(recipe_folder) + name + std::string(extension); }
+
 }  // namespace
 
 std::vector<std::string> recipe_names() {
@@ -19,12 +23,15 @@ std::vector<std::string> recipe_names() {
   return names;
 }
 
+std::string recipe_text(const std::string& name) {
+  for (const EmbeddedFile& f : embedded_files())
+    if (f.path == path_of(name)) return std::string(f.text);
+  throw Error(Fault::usage, unknown_name("recipe", name, recipe_names()));
+}
+
 Recipe load_recipe(const std::string& name_or_path) {
   if (name_or_path.ends_with(extension)) return parse_recipe(read_text(name_or_path), name_or_path);
-  for (const EmbeddedFile& f : embedded_files())
-    if (f.path == std::string(recipe_folder) + name_or_path + std::string(extension))
-      return parse_recipe(std::string(f.text), std::string(f.path));
-  throw Error(Fault::usage, unknown_name("recipe", name_or_path, recipe_names()));
+  return parse_recipe(recipe_text(name_or_path), path_of(name_or_path));
 }
 
 }  // namespace pelage

@@ -35,13 +35,23 @@ const char* compression_of(std::string_view bytes) {
 
 [[noreturn]] void fail(const std::string& path, const std::string& why) { throw Error(Fault::input, why, {path}); }
 
-}  // namespace
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
-std::string read_file(const std::string& path) {
+File open_file(const std::string& path) {
   std::error_code code;
   if (std::filesystem::is_directory(path, code)) fail(path, "is a directory, not a file");
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+  File file(std::fopen(path.c_str(), "rb"), std::fclose);
   if (!file) fail(path, std::string("cannot be opened: ") + std::strerror(errno));
+  return file;
+}
+
+}  // namespace
+
+void require_file(const std::string& path) { open_file(path); }
+
+std::string read_file(const std::string& path) {
+  const File file = open_file(path);
+  std::error_code code;
   // The size is a hint for the memory only: what is read counts, so that pipes work too.
   const std::uintmax_t hint = std::filesystem::file_size(path, code);
   std::string bytes;

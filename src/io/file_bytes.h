@@ -8,4 +8,7 @@ namespace pelage {
 /// The bytes of a file. Throws Error(Fault::input) if it cannot be read, is a directory, or is compressed.
 std::string read_file(const std::string& path);
 
+/// Throws as read_file() does for a path that is no file or cannot be opened.
+void require_file(const std::string& path);
+
 }  // namespace pelage

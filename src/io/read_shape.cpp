@@ -1,3 +1,5 @@
+#include "io/read_shape.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -34,6 +36,8 @@ constexpr Format formats[] = {
 };
 
 const Format& format_of(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw Error(Fault::input, "is a directory, not a file", {path});
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), to_lower);
   std::string known;
@@ -41,7 +45,17 @@ const Format& format_of(const std::string& path) {
     if (extension == format.extension) return format;
     known += (known.empty() ? "" : " ") + std::string(format.extension);
   }
-  throw Error(Fault::input, "cannot read files of the kind \"" + extension + "\"; known are " + known, {path});
+  const std::vector<std::string> built_in = builtin_shape_names();
+  if (extension.empty())
+    throw Error(Fault::input,
+                std::ranges::count(built_in, path) > 0
+                    ? "did you mean builtin:" + path + "?"
+                    : "a shape needs an extension that names its format; known are " + known + ", or builtin:NAME",
+                {path});
+  throw Error(Fault::input,
+              "cannot read files of the kind \"" + extension + "\"; known are " + known +
+                  (extension == ".toml" ? "; models and recipes are given to grow by --model and --recipe" : ""),
+              {path});
 }
 
 /// A file under the extension of another format would be read as nonsense.
@@ -129,6 +143,12 @@ ShapeFile mended(RawShape raw, const std::string& path) {
 }
 
 }  // namespace
+
+void check_shape_path(const std::string& path) {
+  if (is_builtin_shape(path)) return check_builtin_shape(path);
+  format_of(path);
+  require_file(path);
+}
 
 ShapeFile read_shape_bytes(std::string_view bytes, const std::string& name) {
   const Format& format = format_of(name);

@@ -6,6 +6,7 @@
 #include "base/random.h"
 #include "base/suggest.h"
 #include "react/functions.h"
+#include "react/language.h"
 
 namespace pelage {
 
@@ -369,11 +370,9 @@ NodeId parse_formula(Graph& graph, const Formula& formula, const Scope& scope, s
 
 const std::vector<std::string>& reserved_names() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> list = {"pi", "e",  "t",  "x",  "y",  "z",  "bx", "by",
-                                     "bz", "nx", "ny", "nz", "k1", "k2", "H"};
-    for (const Function& function : pure_functions()) list.emplace_back(function.name);
-    for (const char* name : {"attribute", "lap", "uniform", "normal", "noise", "and", "or", "not"})
-      list.emplace_back(name);
+    std::vector<std::string> list = {"and", "or", "not"};
+    for (const Word& word : words())
+      if (std::ranges::count(list, word.name()) == 0) list.emplace_back(word.name());
     return list;
   }();
   return names;

@@ -13,6 +13,7 @@ struct Function {
   std::string_view usage;  ///< as shown in messages
   std::size_t arguments;
   Term (*build)(std::span<const Term>);
+  std::string_view meaning;  ///< one line
 };
 
 /// All of them, in the order of the documentation.

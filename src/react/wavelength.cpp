@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "base/number.h"
 #include "base/random.h"
@@ -119,7 +121,8 @@ double scaling_by_theory(const Model& model, double measured) {
                   changes(model) + " it is unknown, since " +
                   (applies ? "linear theory has no standing wave that grows there"
                            : "linear theory has no wave of that length") +
-                  "; choose other values, or make `wavelength` in a file of your own a formula of the parameters",
+                  "; choose other values, give --unit instead of --size, or make `wavelength` in a file of your own a "
+                  "formula of the parameters",
               model.source().where);
 }
 
@@ -144,7 +147,8 @@ double theory(const Model& model) {
   throw Error(Fault::usage,
               "model \"" + model.name() +
                   "\" has no wavelength of its own with these parameters (no uniform state with a fastest growing "
-                  "wave); give `wavelength` in its file, or other parameters",
+                  "wave), so that a size says nothing; give the length of its unit instead (--unit, in recipes "
+                  "`unit`), or `wavelength` in its file",
               model.source().where);
 }
 
@@ -163,6 +167,17 @@ std::optional<double> known_wavelength(const Model& model) {
   } catch (const Error&) {
     return std::nullopt;
   }
+}
+
+std::optional<double> diffusion_length(const Model& model) {
+  const Stability s = analyse(model);
+  if (s.steady_states.empty() || !model.coupled().empty()) return std::nullopt;
+  double rate = 0, diffusion = std::numeric_limits<double>::infinity();
+  for (const std::complex<double> z : s.eigenvalues) rate = std::max(rate, std::abs(z));
+  for (const double d : s.diffusion)
+    if (d > 0) diffusion = std::min(diffusion, d);
+  const double length = 2 * std::numbers::pi * std::sqrt(diffusion / rate);
+  return length > 0 && std::isfinite(length) ? std::optional(length) : std::nullopt;
 }
 
 bool states_wavelength(const ModelSource& source) { return source.wavelength || source.wavelength_law; }

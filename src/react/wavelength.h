@@ -22,6 +22,12 @@ double model_wavelength(const Model& model);
 /// The same, or nothing.
 std::optional<double> known_wavelength(const Model& model);
 
+/// 2 pi sqrt(D/r) with the smallest diffusion D and the fastest rate r (largest modulus of an eigenvalue) about the
+/// steady state nearest to the initial values: the wave on which diffusion is as fast as the reaction [model length].
+/// Fronts are about as wide as a part of it; the spacing of shipped models is 1.2 to 8 times as much. Nothing without a
+/// steady state, and where species are coupled by Laplacians.
+std::optional<double> diffusion_length(const Model& model);
+
 /// Whether the model's file says something about the wavelength, so that it is not that of linear theory.
 bool states_wavelength(const ModelSource& source);
 

@@ -31,6 +31,7 @@ struct StageProgram {
   std::string model_name;  ///< as the recipe gives it, with its variant
   const StepperKind* stepper = &sbdf2;
   double size = 0;             ///< wanted wavelength [world units]
+  bool size_known = true;      ///< false: `size` is not a wavelength but what the mesh has to resolve
   double length_unit = 0;      ///< world length of one model length unit: size / the model's wavelength
   Point origin{};              ///< of random fields: the middle of the shape's box
   std::optional<double> step;  ///< fixed step; else the stepper's choice

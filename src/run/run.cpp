@@ -9,6 +9,7 @@
 #include "base/number.h"
 #include "pelage/error.h"
 #include "react/stability.h"
+#include "run/blow_up.h"
 #include "run/checkpoint.h"
 #include "run/stage_progress.h"
 #include "time/step_limit.h"
@@ -228,12 +229,14 @@ const RunSummary& Run::advance(std::int64_t steps) {
       ++k;
       if (takes_too_long())
         fail("the fields change so fast that the step is " + number(now_->step) + ", far below the model's of " +
-             number(p.suggested_step));
+                 number(p.suggested_step),
+             {});
     } else if (p.adaptive() && request.dt > smallest_step_fraction * p.suggested_step) {
       ++now_->summary.rejected;
       now_->step = request.dt / 2;
     } else {
-      fail(report.failure.empty() ? "the fields change too fast for the smallest step" : report.failure);
+      fail(report.failure.empty() ? "the fields change too fast for the smallest step" : report.failure,
+           report.runaway);
     }
   }
   show_followers();
@@ -335,14 +338,26 @@ bool Run::takes_too_long() const {
          static_cast<double>(now_->state.step) > most_steps * suggested + few_steps;
 }
 
-void Run::fail(const std::string& reason) {
+/// `runaway`: the value that stopped it, where it was one.
+void Run::fail(const std::string& reason, const std::optional<Runaway>& runaway) {
   const StageProgram& p = stage_program();
+  const State& state = now_->state;
+  const Culprit culprit = find_culprit(system(), state, state.time + next_step(), now_->first_magnitude, runaway);
   RunSummary& summary = now_->summary;
   summary.status = RunStatus::failed;
   summary.message = (program_->stages.size() > 1 ? "stage " + p.name + ", step " : "step ") +
-                    std::to_string(now_->state.step + 1) + ", time " + number(now_->state.time) + ": " + reason + "; " +
-                    (p.step ? "halve the step or leave it to the stepper"
-                            : "check the parameters of the model, or give a smaller --step");
+                    std::to_string(state.step + 1) + ", time " + number(state.time) + ": " + reason + "; " +
+                    culprit.words + " at " + place_in_words(world_, culprit.at.unknown) + "; " + remedy(culprit.at);
+}
+
+std::string Run::remedy(const Runaway& at) const {
+  const StageProgram& p = stage_program();
+  if (const std::string text = remedy_for_negative(system(), initial(), now_->state.now, at); !text.empty())
+    return text + (p.step ? ", or halve the step" : "");
+  if (std::isnan(at.value)) return "look for a division by 0, or a root, power or logarithm of less than 0";
+  if (p.step) return "halve the step or leave it to the stepper";
+  return "check the signs of its rate and the parameters, begin nearer to a steady state, or bound it by max" +
+         std::string(p.adaptive() ? "" : "; or give a smaller --step");
 }
 
 double Run::contrast(std::size_t i) const {
@@ -365,7 +380,7 @@ std::string Run::why_uniform() const {
   for (std::size_t i = 0; i < coefficients().size(); ++i)
     if (magnitude(coefficients()[i]) < dead_share * now_->first_magnitude[i])
       return p.model.species_name(i) + " has died out";
-  if (const double diagonal = box_of(world_.points()).diagonal(); diagonal > 0 && p.size > diagonal)
+  if (const double diagonal = box_of(world_.points()).diagonal(); diagonal > 0 && p.size_known && p.size > diagonal)
     return "a wavelength of " + number(p.size) + " does not fit on a shape of " + number(diagonal);
   if (const Stability s = analyse(p.model); !s.steady_states.empty() && !s.band_max)
     return "by linear theory no wave grows at these parameters";

@@ -84,7 +84,8 @@ class Run {
   void show_followers();
   void accept(const StepReport& report, double dt);
   bool takes_too_long() const;
-  void fail(const std::string& reason);
+  void fail(const std::string& reason, const std::optional<Runaway>& runaway);
+  std::string remedy(const Runaway& at) const;
   static void check_stop(const StageProgram& program, const World& world, Stage& stage);
 
   std::shared_ptr<const Program> program_;

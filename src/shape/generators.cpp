@@ -231,15 +231,30 @@ std::vector<std::string> builtin_shape_names() {
 
 bool is_builtin_shape(std::string_view spec) { return spec.substr(0, prefix.size()) == prefix; }
 
-TriangleMesh builtin_shape(const std::string& spec) {
+namespace {
+
+struct ShapeSpec {
+  const BuiltinShape* shape;
+  int count;
+};
+
+ShapeSpec parse_spec(const std::string& spec) {
   const std::string rest = spec.substr(is_builtin_shape(spec) ? prefix.size() : 0);
   const std::size_t question = rest.find('?');
   const std::string name = rest.substr(0, question);
   const auto shape = std::find_if(std::begin(builtin_shapes), std::end(builtin_shapes),
                                   [&](const BuiltinShape& s) { return name == s.name; });
   if (shape == std::end(builtin_shapes)) unknown("built-in shape", name, builtin_shape_names());
-  TriangleMesh mesh =
-      shape->make(question == std::string::npos ? default_count : parse_count(rest.substr(question + 1)));
+  return {shape, question == std::string::npos ? default_count : parse_count(rest.substr(question + 1))};
+}
+
+}  // namespace
+
+void check_builtin_shape(const std::string& spec) { parse_spec(spec); }
+
+TriangleMesh builtin_shape(const std::string& spec) {
+  const ShapeSpec parsed = parse_spec(spec);
+  TriangleMesh mesh = parsed.shape->make(parsed.count);
   mesh.metres_per_unit = 1;
   return mesh;
 }

@@ -25,5 +25,7 @@ bool is_builtin_shape(std::string_view spec);
 ///   animal  a cub, see shape/animal.h
 /// Throws Error(Fault::usage) for an unknown name or parameter, or a count outside 100 .. 4 million.
 TriangleMesh builtin_shape(const std::string& spec);
+/// Throws as builtin_shape() does, and makes nothing.
+void check_builtin_shape(const std::string& spec);
 
 }  // namespace pelage

@@ -108,9 +108,8 @@ class Rkc2 final : public Stepper {
   void take_stages(const System& system, double t, double dt, int s);
   void finish(const System& system, const std::vector<Vector>& now, double dt, StepReport& report);
   RateSums evaluate(const System& system, const Fields& y, double t, const Fields* d, double dt);
-  void report_sums(const System& system, const std::vector<Vector>& now, const std::vector<SpeciesSums>& sums,
-                   double dt, StepReport& report);
-  std::size_t worst(const std::vector<Vector>& now, std::size_t species) const;
+  void report_sums(const std::vector<Vector>& now, const std::vector<SpeciesSums>& sums, double dt, StepReport& report);
+  Runaway worst(const std::vector<Vector>& now, std::size_t species) const;
   std::vector<ErrorTerms> error_terms(const System& system, double dt) const;
   void add_error(const ErrorTerms& terms, std::size_t pair, const Fields& y, const Fields& d, std::size_t first,
                  std::size_t count, RateSums& sums) const;
@@ -474,11 +473,11 @@ void Rkc2::finish(const System& system, const std::vector<Vector>& now, double d
   });
   std::vector<SpeciesSums> sums(species_);
   for (std::size_t k = 0; k < parts.size(); ++k) sums[k % species_] += parts[k];
-  report_sums(system, now, sums, dt, report);
+  report_sums(now, sums, dt, report);
 }
 
-void Rkc2::report_sums(const System& system, const std::vector<Vector>& now, const std::vector<SpeciesSums>& sums,
-                       double dt, StepReport& report) {
+void Rkc2::report_sums(const std::vector<Vector>& now, const std::vector<SpeciesSums>& sums, double dt,
+                       StepReport& report) {
   report.minimum = std::numeric_limits<double>::infinity();
   report.maximum = -report.minimum;
   report.change = 0;
@@ -486,7 +485,7 @@ void Rkc2::report_sums(const System& system, const std::vector<Vector>& now, con
   for (const std::size_t i : pairs_.evolving()) {
     const SpeciesSums& s = sums[i];
     if (!(s.largest <= largest_value) || !std::isfinite(s.squared_change)) {
-      report.failure = system.species[i].name + " grows beyond all bounds at vertex " + std::to_string(worst(now, i));
+      note_runaway(worst(now, i), report);
       return;
     }
     const double variance = std::max(0.0, s.squared_deviation - s.deviation * s.deviation / n);
@@ -499,13 +498,14 @@ void Rkc2::report_sums(const System& system, const std::vector<Vector>& now, con
 }
 
 /// The first node where a species is too large or no number.
-std::size_t Rkc2::worst(const std::vector<Vector>& now, std::size_t i) const {
+Runaway Rkc2::worst(const std::vector<Vector>& now, std::size_t i) const {
   const PairField& d = d_[pairs_.place(i) / 2];
+  const auto value = [&](std::size_t k) {
+    return now[i][static_cast<Eigen::Index>(k)] + static_cast<double>(d[2 * k + pairs_.place(i) % 2]);
+  };
   std::size_t k = 0;
-  while (k + 1 < nodes_ && std::abs(now[i][static_cast<Eigen::Index>(k)] +
-                                    static_cast<double>(d[2 * k + pairs_.place(i) % 2])) <= largest_value)
-    ++k;
-  return k;
+  while (k + 1 < nodes_ && std::abs(value(k)) <= largest_value) ++k;
+  return {i, k, value(k)};
 }
 
 bool Rkc2::substep(const System& system, const std::vector<Vector>& now, double t, double dt,

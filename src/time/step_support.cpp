@@ -87,8 +87,7 @@ void advance(const System& system, State& state, double dt, std::vector<Vector>&
     const Species& species = system.species[i];
     if (species.follows) continue;
     const Eigen::Index bad = first_blown_up(next[i]);
-    if (bad >= 0 && report.failure.empty())
-      report.failure = species.name + " grows beyond all bounds at vertex " + std::to_string(bad);
+    if (bad >= 0 && report.failure.empty()) note_runaway({i, static_cast<std::size_t>(bad), next[i][bad]}, report);
     if (!report.failure.empty()) return;
     next[i] = next[i].cwiseMax(species.lower).cwiseMin(species.upper);
     const double low = minimum(next[i]), high = maximum(next[i]), largest = std::max(-low, high);
@@ -115,6 +114,12 @@ void advance(const System& system, State& state, double dt, std::vector<Vector>&
   report.accepted = true;
 }
 
+void note_runaway(const Runaway& runaway, StepReport& report) {
+  report.runaway = runaway;
+  report.failure =
+      std::isnan(runaway.value) ? "the step leads to what is not a number" : "the step leads beyond all bounds";
+}
+
 void StepMatrix::update(const SharedMatrix& mass, double alpha, const SharedMatrix& stiffness, double beta) {
   if (alpha == alpha_ && beta == beta_ && mass == mass_ && stiffness == stiffness_) return;
   combine(alpha, *mass, beta, *stiffness, matrix_);
@@ -137,6 +142,8 @@ void note_solve(const SolveReport& solve, const std::string& names, StepReport& 
   if (!report.failure.empty()) return;
   if (!solve.positive_definite)
     report.failure = "the matrix of " + names + " is not positive definite: the step is too large";
+  else if (std::isnan(solve.residual))
+    report.failure = "the solve for " + names + " meets what is not a number";
   else if (!solve.converged)
     report.failure = "the solve for " + names + " did not converge (residual " + number(solve.residual) + ")";
 }

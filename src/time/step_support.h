@@ -46,6 +46,8 @@ class StepMatrix {
 
 /// `names`: of the species that were solved for.
 void note_solve(const SolveReport& solve, const std::string& names, StepReport& report);
+/// Makes it the failure of the step.
+void note_runaway(const Runaway& runaway, StepReport& report);
 std::string coupled_names(const System& system);
 
 }  // namespace pelage

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,16 +13,23 @@
 
 namespace pelage {
 
+/// A value that no step may lead to: not finite, or too large.
+struct Runaway {
+  std::size_t species = 0, unknown = 0;
+  double value = 0;
+};
+
 struct StepReport {
-  bool accepted = false;  ///< the state has advanced
-  std::string failure;    ///< why it has not; empty when only the error estimate was too large
-  int iterations = 0;     ///< stages, or of the linear solver, all species together
-  double bytes = 0;       ///< that these read and wrote, at least: every array once a pass; 0 where not counted
-  double residual = 0;    ///< relative, the largest of all species
-  double error = 0;       ///< estimated local error relative to the size of the fields; 0 when unknown
-  double change = 0;      ///< of the pattern per unit of time: root mean square of du/dt over that of the deviation
-                          ///< from the mean, the largest of all species. A growing pattern changes by its growth
-                          ///< rate however faint it is; only a finished one comes to rest.
+  bool accepted = false;           ///< the state has advanced
+  std::string failure;             ///< why it has not; empty when only the error estimate was too large
+  std::optional<Runaway> runaway;  ///< where that was a value
+  int iterations = 0;              ///< stages, or of the linear solver, all species together
+  double bytes = 0;     ///< that these read and wrote, at least: every array once a pass; 0 where not counted
+  double residual = 0;  ///< relative, the largest of all species
+  double error = 0;     ///< estimated local error relative to the size of the fields; 0 when unknown
+  double change = 0;    ///< of the pattern per unit of time: root mean square of du/dt over that of the deviation
+                        ///< from the mean, the largest of all species. A growing pattern changes by its growth
+                        ///< rate however faint it is; only a finished one comes to rest.
   double minimum = 0, maximum = 0;  ///< over the coefficients of all species
 };
 

@@ -44,11 +44,14 @@ grep -qE '^pelage [0-9]+\.[0-9]+\.[0-9]+$' stdout || fail "--version says $(cat 
 "$pelage" >stdout 2>stderr
 [ $? -eq 2 ] && [ ! -s stdout ] && grep -q Usage stderr || fail "no arguments: help on stderr and exit code 2 expected"
 succeed --help
-for command in grow check models analyse map gallery recipes fair field compare verify; do
+for command in grow check models formulas analyse map gallery recipes fair field compare verify; do
   grep -q "^  $command " stdout || fail "--help does not list $command"
 done
-for command in grow check models analyse map gallery recipes fair field compare verify; do
+for command in grow check models formulas analyse map gallery recipes fair field compare verify; do
   succeed $command --help
+  cp stdout help
+  succeed help $command
+  cmp -s stdout help || fail "help $command is not $command --help"
   grep -q "pelage $command" stdout || fail "$command --help has no example"
   [ "$(wc -L <stdout)" -le 100 ] || fail "$command --help is wider than 100 columns"
 done
@@ -141,6 +144,11 @@ expect 2 '--across needs' field $sphere --across
 expect 2 'mark at least one vertex at each end' field $sphere --from 3
 expect 2 'vertex 700 is marked; the mesh has 642' field $sphere --from 3 --to 700
 
+succeed --help
+cp stdout help
+succeed help
+cmp -s stdout help || fail "help is not --help"
+
 # --- wrong usage: 2 --------------------------------------------------------------------------------------
 expect 2 'unknown command "gorw".*did you mean "grow"' gorw cow.obj
 expect 2 'unknown option "--sise".*did you mean "--size"' grow $sphere --sise 0.1 -o a.ply
@@ -164,6 +172,48 @@ expect 2 '.*model "schnakenberg" is measured at the values of its file; with d =
 expect 2 '--set s: expected PARAM=VALUE' grow $sphere -o a.ply --set s
 expect 2 '--set s=1e: expected PARAM=VALUE' grow $sphere -o a.ply --set s=1e
 expect 2 'nothing to write' grow $sphere
+# Nothing is done before all faults that need no work are found, the missing output last.
+expect 2 'unknown model "turin"' grow $sphere --model turin
+expect 2 'unknown ramp "leopart"' grow $sphere --ramp leopart
+expect 2 'unknown recipe "dem"' grow $sphere --recipe dem
+expect 3 'missing.obj: cannot be opened' grow missing.obj
+expect 3 'missing.png: cannot be opened' grow $sphere --texture age=missing.png
+expect 3 'missing: cannot be opened' grow $sphere --resume missing
+expect 2 'unknown built-in shape "anmal"' grow builtin:anmal
+expect 2 'unknown command "gorw"' help gorw
+# A model or a recipe in the place of a shape, or of each other.
+printf 'name = "m"\n[species.u]\ndiffusion = 1\nrate = "1 - u"\n' >m.toml
+printf 'name = "r"\n[stage]\nmodel = "turing"\n' >r.toml
+expect 2 'm.toml is a model.*--model m.toml' grow m.toml
+expect 2 'r.toml is a recipe.*--recipe r.toml' grow r.toml -o a.ply
+expect 2 'turing is a model.*--model turing' grow turing -o a.ply
+expect 2 'zebra is a recipe.*--recipe zebra' grow zebra -o a.ply
+expect 2 'r.toml: this is a recipe, not a model; give it as --recipe' grow $sphere --model r.toml -o a.ply
+expect 2 'm.toml: this is a model, not a recipe; give it as --model' grow $sphere --recipe m.toml -o a.ply
+expect 2 'r.toml: this is a recipe, not a model' analyse r.toml
+expect 3 'm.toml: .*models and recipes are given to grow by --model and --recipe' check m.toml
+# Models without a wavelength are sized by their unit.
+expect 2 'm.toml.*give the length of its unit instead' grow $sphere --model m.toml -o a.ply
+succeed grow $sphere --model m.toml --unit 0.05 --steps 2 --detail 0 -o a.ply
+grep -q 'unknown wavelength' stdout || fail "grow claims a wavelength: $(cat stdout)"
+succeed analyse m.toml
+[ "$(grep -c -- '--unit 0.0' stdout)" -eq 1 ] || fail "analyse does not say how to size m.toml: $(cat stdout)"
+# The beginning of a model.
+succeed models --new mine
+succeed analyse mine.toml
+grep -q 'a pattern: waves of a finite length grow' stdout || fail "the skeleton makes no pattern: $(cat stdout)"
+succeed analyse mine.toml:stripes
+grep -q 'a pattern: waves of a finite length grow' stdout || fail "the skeleton's variant makes no pattern: $(cat stdout)"
+succeed grow $sphere --model mine.toml --size 0.3 -o a.ply --json
+json 'not d["uniform"] and d["stages"][0]["growth"]["maximum"] > 2'
+cp mine.toml before.toml
+expect 5 'mine.toml: exists already' models --new mine
+cmp -s mine.toml before.toml || fail "models --new touched a file that was there"
+expect 2 '"a/b" is not a name for a model' models --new a/b
+succeed formulas
+grep -q '^  sqrt(a)  *square root' stdout || fail "formulas does not list sqrt: $(cat stdout)"
+succeed formulas --json
+is_json stdout
 expect 2 'no shape to grow on' grow -o a.ply
 expect 2 'unknown model "turin".*did you mean "turing"' grow missing.obj -o a.ply --model turin
 expect 2 'MODEL is required' analyse
@@ -197,6 +247,24 @@ printf 'name = "r"\n[stage]\nmodel = "turing"\nsiez = 0.1\n' >wrong.toml
 expect 2 'wrong.toml:4.*siez.*did you mean "size"' grow $sphere --recipe wrong.toml -o a.ply
 expect 2 'unknown model "turin"' models turin
 
+expect 2 '--ramp needs a value' grow $sphere --ramp -o a.ply
+expect 2 '--recipe needs a value' grow --recipe -o a.ply
+expect 2 '--steps: "x" is not a number' fair $sphere --steps x -o a.ply
+expect 2 'too many arguments: "Da=1".*--set Da=1' analyse turing Da=1
+expect 2 'unknown option "-s"; see' analyse turing -s Da=1
+expect 2 'unknown command "version"; did you mean "--version"' version
+expect 2 'model "turing" has no variant "foo"; it has production, mixed' models turing:foo
+expect 2 'unknown model "zebra"; it is a recipe' grow $sphere --model zebra -o a.ply
+expect 3 'sphere: did you mean builtin:sphere' grow sphere -o a.ply
+expect 3 'cow: a shape needs an extension' check cow
+expect 3 '.: is a directory' check .
+expect 2 'unknown model "xyz"; there are [^:]*, each with variants' analyse xyz
+succeed recipes zebra
+grep -q '^name = "zebra"' stdout || fail "recipes zebra does not print it: $(cat stdout)"
+cp stdout copy.toml
+succeed grow $sphere --recipe copy.toml --steps 1 --size 0.4 --detail 0 -o a.ply
+expect 2 'unknown recipe "zebr"' recipes zebr
+
 # --- unusable input: 3 -----------------------------------------------------------------------------------
 printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 nan 0\n3 0 1 2\n' >nan.off
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n' >index.obj
@@ -211,6 +279,7 @@ expect 3 'nan.off: .*checkpoint' grow $sphere "${quick[@]}" --resume nan.off -o 
 
 # --- unwritable output: 5, before any work ------------------------------------------------------------------
 mkdir -p folder.ply folder.png
+rm -f a.ply
 expect 5 'nowhere/a.ply: the folder nowhere does not exist' grow missing.obj -o nowhere/a.ply
 expect 5 'nowhere/a.png: ' grow missing.obj --picture nowhere/a.png
 expect 5 'nowhere/a: ' grow missing.obj -o a.ply --checkpoint nowhere/a
@@ -225,9 +294,11 @@ expect 5 'folder.png: ' grow missing.obj --picture folder.png
 # --- the input is safe ---------------------------------------------------------------------------------------
 succeed grow $sphere "${quick[@]}" --keep-shape -o mine.ply
 expect 2 'the output .*mine.ply is the input' grow mine.ply -o "$work/mine.ply"
+expect 2 'the output mine.ply is the input' fair mine.ply -o mine.ply
+expect 2 'the output mine.ply is the input' field mine.ply -o mine.ply
 
 # --- failed computation: 4 -----------------------------------------------------------------------------------
-expect 4 'step [0-9]+, time' grow $sphere --size 0.3 --stepper explicit --step 1000 --until 1e9 -o failed.ply
+expect 4 "step [0-9]+, time .*[ab] becomes .* at vertex [0-9]+ \\(.*, .*, .*\\); halve the step" grow $sphere --size 0.3 --stepper explicit --step 1000 --until 1e9 -o failed.ply
 [ ! -e failed.ply ] || fail "a failed run left an output"
 
 # --- JSON ----------------------------------------------------------------------------------------------------
@@ -463,6 +534,8 @@ same_form() {  # ignores what may differ: colours behind v, normals, and the num
     <(sed -E 's/^(v [^ ]+ [^ ]+ [^ ]+).*/\1/; /^(#|vn|vt|mtllib)/d; s:/[0-9]*(/[0-9]*)?::g' "$2" | sort) >/dev/null &&
     [ "$(grep -c '^vt ' "$1")" -eq "$(grep -c '^vt ' "$2")" ]
 }
+succeed grow builtin:sphere?n=642 "${quick[@]}" --keep-shape -o kept.ply
+succeed check kept.ply --json && json 'd["vertices"] == 642'
 # Without fields: the coat's colour, and what the shape had under its own name, also where a species is called so.
 succeed grow $sphere "${quick[@]}" -o with.ply
 succeed grow with.ply "${quick[@]}" --no-fields -o without.ply
@@ -527,6 +600,15 @@ grep -q '^130 .*pelage: error: interrupted' interrupt.log || fail "Ctrl-C in map
 interrupt "pelage: making the pictures" gallery turing --size 0.03 -o interrupted/gallery
 grep -q '^130 .*pelage: error: interrupted' interrupt.log || fail "Ctrl-C in gallery: $(cat interrupt.log)"
 [ -z "$(find interrupted -type f)" ] || fail "Ctrl-C left files: $(find interrupted -type f)"
+
+# What a gallery has made before Ctrl-C is on its page.
+printf 'shape = "builtin:sphere?n=162"\n[stage]\nmodel = "turing"\nsteps = 1\nsize = 0.5\n' >brief.toml
+printf 'shape = "builtin:sphere?n=162"\n[stage]\nmodel = "turing"\nsize = 0.03\nuntil = 1e9\nstationary = 0\n' >endless.toml
+interrupt "pelage: making the pictures" gallery --recipes --shape $sphere --picture-size 64 --threads 1 -o interrupted/page brief.toml endless.toml
+grep -q '^130 .*pelage: error: interrupted; .*index.html shows the 1 of 2 pictures' interrupt.log || fail "Ctrl-C in gallery: $(cat interrupt.log)"
+grep -q 'brief-sphere.png' interrupted/page/index.html && grep -q 'interrupted before it was made' interrupted/page/index.html ||
+  fail "an interrupted gallery has no page of what it made"
+rm -r interrupted/page
 
 # --- a surface that moves while the coat grows -----------------------------------------------------------------
 moving=(grow $sphere --size 0.5 --steps 4 --every 2 --detail 0)
