@@ -104,9 +104,11 @@ void print_jacobian(const Analysis& a) {
   for (const std::string& s : a.species) rows[0].push_back("d/d" + s);
   rows[0].push_back("DIFFUSION");
   const std::size_t n = a.species.size();
-  const std::vector<double>& cross = a.stability.cross;
+  const std::vector<double>&cross = a.stability.cross, &fluxes = a.stability.fluxes;
   if (!cross.empty())
     for (const std::string& s : a.species) rows[0].push_back("OF lap(" + s + ")");
+  if (!fluxes.empty())
+    for (const std::string& s : a.species) rows[0].push_back("FLUX OF grad " + s);
   for (std::size_t i = 0; i < n; ++i) {
     rows.push_back({"R_" + a.species[i]});
     for (std::size_t j = 0; j < n; ++j)  // + 0.0: no negative zeros
@@ -114,6 +116,7 @@ void print_jacobian(const Analysis& a) {
     rows.back().push_back(number(a.stability.diffusion[i]));
     for (std::size_t j = 0; j < n && !cross.empty(); ++j)
       rows.back().push_back(i == j ? "" : number(cross[i * n + j] + 0.0));
+    for (std::size_t j = 0; j < n && !fluxes.empty(); ++j) rows.back().push_back(number(fluxes[i * n + j] + 0.0));
   }
   std::fputs(table(rows, 2).c_str(), stdout);
 }

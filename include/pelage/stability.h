@@ -17,7 +17,9 @@ struct Stability {
   std::size_t chosen = 0;         ///< the one nearest to the mean initial values; what follows is about it
   std::vector<double> jacobian;   ///< dR_i/du_j at [i * n + j]; for an algebraic species R is its formula minus itself
   std::vector<double> diffusion;  ///< C0 * C1 of each species there
-  std::vector<double> cross;  ///< coefficient of lap(u_j) in equation i at [i * n + j], j != i; empty if there is none
+  std::vector<double> cross;   ///< coefficient of lap(u_j) in equation i at [i * n + j], j != i; empty if there is none
+  std::vector<double> fluxes;  ///< c of div(c grad u_j) in equation i at [i * n + j], beside `diffusion` and `cross`;
+                               ///< empty if there is none
   std::vector<char> algebraic;                    ///< per species: its R stays 0; empty if all evolve
   std::vector<std::complex<double>> eigenvalues;  ///< of the evolving species at k = 0, largest real part first
 

@@ -59,6 +59,17 @@ SparseMatrix SurfaceSpace::stiffness(const std::vector<Tensor>& c) const {
   return connectivity_->assembler.stiffness(control_, c);
 }
 
+const Gradients& SurfaceSpace::gradients() const {
+  const std::lock_guard lock(making_);
+  if (!gradients_)
+    gradients_ = std::make_unique<const Gradients>(discretisation(), control_, connectivity_->assembler.pattern());
+  return *gradients_;
+}
+
+Vector SurfaceSpace::gradient_product(SampleRule rule, const Vector& u, const Vector& v) const {
+  return rule == SampleRule::vertices ? gradients().at_vertices(u, v) : gradients().at_quadrature_points(u, v);
+}
+
 ElementPoint SurfaceSpace::element_point(Index face, double v, double w) const {
   const Discretisation& d = discretisation();
   const auto e = static_cast<std::size_t>(face);

@@ -1,10 +1,12 @@
 #pragma once
 // Finite elements on a triangulated surface as a Space.
 
+#include <memory>
 #include <mutex>
 #include <optional>
 
 #include "discretise/discretisation.h"
+#include "discretise/gradients.h"
 #include "discretise/space.h"
 
 namespace pelage {
@@ -34,6 +36,7 @@ class SurfaceSpace final : public Space {
   SparseMatrix weighted_mass(const std::vector<double>& c) const override;
   SparseMatrix stiffness(const std::vector<double>& c) const override;
   SparseMatrix stiffness(const std::vector<Tensor>& c) const override;
+  Vector gradient_product(SampleRule rule, const Vector& u, const Vector& v) const override;
   ElementPoint element_point(Index face, double v, double w) const override;
   PlaceGeometry geometry(SampleRule rule, bool with_curvature) const override;
   std::vector<double> at_quadrature_points(const std::vector<double>& at_nodes) const override;
@@ -46,12 +49,14 @@ class SurfaceSpace final : public Space {
   std::shared_ptr<const Connectivity> connectivity_;
   std::vector<Point> control_;
   void assemble() const;
+  const Gradients& gradients() const;
 
   // Made when they are first asked for.
   mutable std::mutex making_;
   mutable SharedMatrix stiffness_;
   mutable std::optional<AssembledMatrices> assembled_;  ///< until the samples are made of it
   mutable SampledMass at_vertices_, at_quadrature_;
+  mutable std::unique_ptr<const Gradients> gradients_;
   mutable std::shared_ptr<const Sampling> earlier_;  ///< at the vertices, of another place, which shares its matrices
 };
 

@@ -18,7 +18,7 @@ const Color curve_color = parse_hex_color("#0b5f8a"), frequency_color = parse_he
 double largest_wave_number(const Stability& s) {
   double scale = 0, diffusion = 0;
   for (const auto& value : s.eigenvalues) scale = std::max(scale, std::abs(value));
-  for (const auto* list : {&s.diffusion, &s.cross})
+  for (const auto* list : {&s.diffusion, &s.cross, &s.fluxes})
     for (const double d : *list) diffusion = std::max(diffusion, std::abs(d));
   double k = diffusion > 0 && scale > 0 ? 1.5 * std::sqrt(scale / diffusion) : 1;
   if (s.wavelength) k = 2 * 2 * std::numbers::pi / *s.wavelength;

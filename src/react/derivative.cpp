@@ -1,6 +1,7 @@
 #include "react/derivative.h"
 
 #include <cassert>
+#include <numbers>
 
 namespace pelage {
 
@@ -58,6 +59,8 @@ Term ChainRule::elementary() const {
       return (1.0 + f_ * f_) * d(0);
     case Op::hyperbolic_tangent:
       return (1.0 - f_ * f_) * d(0);
+    case Op::error_function:
+      return 2 * std::numbers::inv_sqrtpi * make(Op::exponential, -(a * a)) * d(0);
     default:  // floor, comparisons and logic: constant between their jumps
       return number(0);
   }

@@ -18,8 +18,17 @@ double dispatch(Op op, double a, double b, double c, std::index_sequence<I...>) 
 }
 
 unsigned dependence_of(const Symbol& symbol) {
-  if (symbol.kind == Symbol::Kind::species || symbol.kind == Symbol::Kind::laplacian) return on_species;
-  return symbol.kind == Symbol::Kind::time ? on_time : on_place;
+  switch (symbol.kind) {
+    case Symbol::Kind::species:
+    case Symbol::Kind::laplacian:
+    case Symbol::Kind::gradients:
+    case Symbol::Kind::divergence:
+      return on_species;
+    case Symbol::Kind::time:
+      return on_time;
+    default:
+      return on_place;
+  }
 }
 
 }  // namespace

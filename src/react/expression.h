@@ -24,6 +24,8 @@ struct Symbol {
   enum class Kind {
     species,        ///< concentration number `index`
     laplacian,      ///< surface Laplacian of concentration number `index`
+    gradients,      ///< scalar product of the surface gradients of concentrations `index` and `other`, index <= other
+    divergence,     ///< div(c grad u) of concentration number `index` and the node `other`, c
     time,           ///< model time
     position,       ///< coordinate `index` (0, 1, 2) of the place, world units
     box_position,   ///< the same in the bounding box of all places: -1 at its low side, 1 at its high one
@@ -40,11 +42,12 @@ struct Symbol {
   std::string name = {};     ///< of an attribute
   std::uint64_t stream = 0;  ///< of random kinds: tells independent fields apart
   double length = 0;         ///< of band-limited noise
+  NodeId other = -1;         ///< of gradients and divergences
   Location where = {};       ///< first use; does not take part in comparisons
 
-  bool operator==(const Symbol& other) const {
-    return kind == other.kind && index == other.index && name == other.name && stream == other.stream &&
-           length == other.length;
+  bool operator==(const Symbol& s) const {
+    return kind == s.kind && index == s.index && name == s.name && stream == s.stream && length == s.length &&
+           other == s.other;
   }
 };
 

@@ -1,7 +1,9 @@
 #include "react/formula.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/random.h"
 #include "base/suggest.h"
@@ -48,9 +50,13 @@ std::string written_otherwise(std::string_view word) {
       {"laplacian", "the Laplacian of u is written lap(u)"},
       {"laplace", "the Laplacian of u is written lap(u)"},
       {"del2", "the Laplacian of u is written lap(u)"},
-      {"grad", "there are no gradients in formulas, only lap(u)"},
-      {"grad2", "there are no gradients in formulas, only lap(u)"},
-      {"div", "there are no fluxes in formulas; `diffusion` may vary"},
+      {"nabla", "|grad u|^2 is written grad2(u), the Laplacian of u lap(u)"},
+      {"gradient", "|grad u|^2 is written grad2(u), and grad u . grad v dot(grad u, grad v)"},
+      {"gradsq", "|grad u|^2 is written grad2(u)"},
+      {"divergence", "the divergence of a flux is written div(c grad u)"},
+      {"bilap", "the Laplacian of lap(u) is lap(w) of a species w that equals lap(u)"},
+      {"biharmonic", "the Laplacian of lap(u) is lap(w) of a species w that equals lap(u)"},
+      {"erfc", "erfc(a) is written 1 - erf(a)"},
       {"sgn", "the sign of a is written sign(a)"},
       {"signum", "the sign of a is written sign(a)"},
       {"sech", "sech(a) is written 1/cosh(a)"},
@@ -123,12 +129,24 @@ class Parser {
   NodeId call(const Token& name, const Function& function);
   std::vector<NodeId> arguments(const Token& name, std::string_view usage, std::size_t least, std::size_t most);
   NodeId attribute(const Token& name);
+  int species(const Token& of);
+  int species_in_brackets(const Token& name);
+  int gradient(const Token& name);
   NodeId laplacian(const Token& name);
+  NodeId squared_gradient(const Token& name);
+  NodeId product_of_gradients(const Token& name);
+  NodeId divergence(const Token& name);
+  NodeId flux(const Token& name);
+  NodeId operator_symbol(Symbol symbol, const Token& name);
+  bool is_species(std::string_view name) const;
+  void require_plain_coefficient(NodeId c, const Token& name) const;
+  std::string derivative_hint(std::string_view word) const;
   NodeId white_noise(const Token& name);
   NodeId noise(const Token& name);
   double constant_argument(const Token& name, NodeId argument, const std::string& what) const;
   std::uint64_t next_stream() { return hash(label_, occurrence_++); }
   [[noreturn]] void unknown(const Token& name, bool is_function) const;
+  [[noreturn]] static void gradient_alone(const Token& name);
 
   Graph& graph_;
   const Scope& scope_;
@@ -229,6 +247,7 @@ NodeId Parser::parenthesis() {
 
 NodeId Parser::variable(const Token& name) {
   if (const auto found = scope_.names.find(name.text); found != scope_.names.end()) return found->second;
+  if (name.text == "grad") gradient_alone(name);
   if (name.text == "pi") return graph_.constant(3.14159265358979323846);
   if (name.text == "e") return graph_.constant(2.71828182845904523536);
   const auto symbol = [&](Symbol value) {
@@ -251,6 +270,10 @@ NodeId Parser::variable(const Token& name) {
 NodeId Parser::call(const Token& name) {
   if (name.text == "attribute") return attribute(name);
   if (name.text == "lap") return laplacian(name);
+  if (name.text == "grad2") return squared_gradient(name);
+  if (name.text == "dot") return product_of_gradients(name);
+  if (name.text == "div") return divergence(name);
+  if (name.text == "grad") gradient_alone(name);
   if (name.text == "uniform" || name.text == "normal") return white_noise(name);
   if (name.text == "noise") return noise(name);
   for (const Function& function : pure_functions())
@@ -291,19 +314,124 @@ NodeId Parser::attribute(const Token& name) {
   return graph_.symbol(symbol);
 }
 
-NodeId Parser::laplacian(const Token& name) {
+bool Parser::is_species(std::string_view name) const {
+  const auto found = scope_.names.find(name);
+  return found != scope_.names.end() && graph_[found->second].op == Op::symbol &&
+         graph_.symbol_of(found->second).kind == Symbol::Kind::species;
+}
+
+/// The number of the species that stands here.
+int Parser::species(const Token& of) {
+  const std::string function(of.text);
+  if (peek().kind == Token::Kind::name && is_species(peek().text))
+    return graph_.symbol_of(scope_.names.find(take().text)->second).index;
+  const bool is_formula = peek().kind != Token::Kind::name || std::ranges::count(reserved_names(), peek().text) > 0;
+  expected("the name of a species in " + function + "()" +
+           (is_formula ? " (for " + function + " of a formula make a species that equals it)" : ""));
+}
+
+int Parser::species_in_brackets(const Token& name) {
   take();  // '('
-  const auto species = scope_.names.find(peek().text);
-  const bool is_species = peek().kind == Token::Kind::name && species != scope_.names.end() &&
-                          graph_[species->second].op == Op::symbol &&
-                          graph_.symbol_of(species->second).kind == Symbol::Kind::species;
-  if (!is_species) expected("the name of a species in lap()");
-  Symbol symbol{Symbol::Kind::laplacian, graph_.symbol_of(species->second).index};
-  symbol.where = name.where;
-  take();
+  const int index = species(name);
   if (!accept(")"))
-    expected("')' after the name of the species; for lap(formula) make a species that equals the formula");
+    expected("')' after the name of the species; for " + std::string(name.text) +
+             "(formula) make a species that equals the formula");
+  return index;
+}
+
+NodeId Parser::operator_symbol(Symbol symbol, const Token& name) {
+  symbol.where = name.where;
   return graph_.symbol(symbol);
+}
+
+NodeId Parser::laplacian(const Token& name) {
+  return operator_symbol({Symbol::Kind::laplacian, species_in_brackets(name)}, name);
+}
+
+NodeId Parser::squared_gradient(const Token& name) {
+  Symbol symbol{Symbol::Kind::gradients, species_in_brackets(name)};
+  symbol.other = symbol.index;
+  return operator_symbol(symbol, name);
+}
+
+/// `grad u` or `grad(u)` as a part of another function.
+int Parser::gradient(const Token& name) {
+  if (!sees("grad")) expected("grad of a species in " + std::string(name.text) + "()");
+  const Token& grad = take();
+  return sees("(") ? species_in_brackets(grad) : species(grad);
+}
+
+NodeId Parser::product_of_gradients(const Token& name) {
+  take();  // '('
+  Symbol symbol{Symbol::Kind::gradients, gradient(name)};
+  if (!accept(",")) expected("',' between the gradients of dot(grad u, grad v)");
+  symbol.other = gradient(name);
+  if (!accept(")")) expected("')' after dot(grad u, grad v");
+  if (symbol.other < symbol.index) std::swap(symbol.index, symbol.other);
+  return operator_symbol(symbol, name);
+}
+
+void Parser::gradient_alone(const Token& name) {
+  throw Error(Fault::usage,
+              "a gradient is no number: |grad u|^2 is written grad2(u), and gradients stand in dot(grad u, grad v) and "
+              "div(c grad u) only",
+              name.where);
+}
+
+NodeId Parser::divergence(const Token& name) {
+  take();  // '('
+  NodeId sum = accept("-") ? make(Op::negate, flux(name)) : flux(name);
+  while (sees("+") || sees("-")) {
+    const Op op = take().text == "+" ? Op::add : Op::subtract;
+    sum = make(op, sum, flux(name));
+  }
+  if (!accept(")")) expected("')' after div(c grad u");
+  return sum;
+}
+
+/// The divergence of one flux: factors of which one is a gradient.
+NodeId Parser::flux(const Token& name) {
+  NodeId c = graph_.constant(1);
+  std::optional<int> of;
+  Op op = Op::multiply;
+  do {
+    if (op == Op::multiply && !of && sees("grad"))
+      of = gradient(name);
+    else
+      c = make(op, c, signed_power());
+    op = sees("/") ? Op::divide : Op::multiply;
+  } while (accept("*") || accept("/") || (!of && sees("grad")));
+  if (!of) expected("a gradient in each term of div(), as in div(c grad u)");
+  require_plain_coefficient(c, name);
+  if (graph_.constant_value(c)) return make(Op::multiply, c, operator_symbol({Symbol::Kind::laplacian, *of}, name));
+  Symbol symbol{Symbol::Kind::divergence, *of};
+  symbol.other = c;
+  return operator_symbol(symbol, name);
+}
+
+/// The coefficient is evaluated where no other derivatives are known.
+void Parser::require_plain_coefficient(NodeId c, const Token& name) const {
+  for (const NodeId id : reachable(graph_, std::array{c})) {
+    if (graph_[id].op != Op::symbol) continue;
+    const Symbol::Kind kind = graph_.symbol_of(id).kind;
+    if (kind == Symbol::Kind::laplacian || kind == Symbol::Kind::gradients || kind == Symbol::Kind::divergence)
+      throw Error(
+          Fault::usage,
+          "the coefficient c of div(c grad u) cannot contain lap(), grad2(), dot() or div(); make a species that "
+          "equals it",
+          name.where);
+  }
+}
+
+/// Of words like u_x and u_xx.
+std::string Parser::derivative_hint(std::string_view word) const {
+  const auto end = word.rfind('_');
+  if (end == std::string_view::npos || end + 1 == word.size() || !is_species(word.substr(0, end)) ||
+      word.find_first_not_of("xyz", end + 1) != std::string_view::npos)
+    return "";
+  const std::string u(word.substr(0, end));
+  return "a surface has no derivatives along x: |grad " + u + "|^2 is written grad2(" + u + "), the Laplacian lap(" +
+         u + ")";
 }
 
 NodeId Parser::white_noise(const Token& name) {
@@ -355,6 +483,7 @@ void Parser::unknown(const Token& name, bool is_function) const {
     for (const auto& [text, id] : scope_.names) names.push_back(text);
   names.insert(names.end(), reserved_names().begin(), reserved_names().end());
   std::string hint = written_otherwise(word);
+  if (hint.empty()) hint = derivative_hint(word);
   if (hint.empty()) hint = did_you_mean(word, names);
   throw Error(Fault::usage,
               (is_function ? "unknown function \"" : "unknown name \"") + word + "\"" +

@@ -3,12 +3,14 @@
 //
 //   a + b, a - b, a * b, a / b, -a, a^b      ^ binds tightest and to the right: -2^2 = -4, 2^3^2 = 2^9
 //   < <= > >= == !=, and, or, not            logical values are 0 and 1
-//   if(condition, a, b) min max abs exp log sqrt sin cos tan tanh pow(a, b) mod(a, b) floor
+//   if(condition, a, b) min max abs exp log sqrt sin cos tan tanh erf pow(a, b) mod(a, b) floor
 //   step(edge, x) = (x >= edge), smoothstep(edge0, edge1, x), clamp(x, lower, upper)
 //   pi, e; t (time); x, y, z (place, world units); nx, ny, nz (unit normal);
 //   bx, by, bz (place in the bounding box of the surface, from -1 to 1; 0 along a side without extent);
 //   k1, k2, H (principal curvatures and their mean, 1 / world unit); attribute(name) (of the mesh, per vertex)
 //   lap(u): surface Laplacian of a species u; in rate and equals only, times numbers and parameters (react/laplacian.h)
+//   grad2(u), dot(grad u, grad v): products of surface gradients of species; in rate and equals only
+//   div(c grad u): divergence of a flux with a formula c; in rate only, times numbers and parameters
 //   uniform(a, b), normal(mean, deviation): white noise, an independent draw at every place
 //   noise(length [, seed]): band-limited noise, mean 0, variance 1, length in the model's own length unit
 //

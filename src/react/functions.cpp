@@ -47,7 +47,7 @@ Term hyperbolic_cosine(Arguments in) {
 /// exp(a) - exp(-a) would lose all digits near 0.
 Term hyperbolic_sine(Arguments in) { return operation<Op::hyperbolic_tangent>(in) * hyperbolic_cosine(in); }
 
-constexpr std::array<Function, 23> functions = {{
+constexpr std::array<Function, 24> functions = {{
     {"if", "if(condition, a, b)", 3, &operation<Op::select>,
      "a where the condition is true (not 0), else b; both are computed"},
     {"min", "min(a, b)", 2, &operation<Op::minimum>, "the smaller one"},
@@ -69,6 +69,7 @@ constexpr std::array<Function, 23> functions = {{
     {"sinh", "sinh(a)", 1, &hyperbolic_sine, "hyperbolic sine"},
     {"cosh", "cosh(a)", 1, &hyperbolic_cosine, "hyperbolic cosine"},
     {"tanh", "tanh(a)", 1, &operation<Op::hyperbolic_tangent>, "hyperbolic tangent, from -1 to 1"},
+    {"erf", "erf(a)", 1, &operation<Op::error_function>, "error function, from -1 to 1"},
     {"pow", "pow(a, b)", 2, &operation<Op::power>, "a^b"},
     {"mod", "mod(a, b)", 2, &operation<Op::modulo>, "a - b floor(a/b), which has the sign of b"},
     {"floor", "floor(a)", 1, &operation<Op::floor>, "the largest whole number up to a"},

@@ -55,13 +55,17 @@ class KineticsBuilder {
       : kinetics_(kinetics), graph_(kinetics.graph_), equations_(model.equations()), places_(places), seed_(seed) {
     graph_ = equations_.graph;
     kinetics.size_ = places.positions.size();
+    kinetics.gradient_count_ = equations_.gradients.size();
   }
 
   void build(Kinetics::Parts parts) {
     const Equations& e = equations_;
     if (parts == Kinetics::Parts::all) add_reaction();
     const std::vector<NodeId> diffusion = join(e.prefactor, e.diffusion);
-    kinetics_.diffusion_ = program(diffusion);
+    kinetics_.diffusion_ = program(diffusion, {});
+    std::vector<NodeId> coefficients;
+    for (const Flux& flux : e.fluxes) coefficients.push_back(flux.coefficient);
+    kinetics_.fluxes_ = program(coefficients, {});
     const bool starts = parts == Kinetics::Parts::all || std::ranges::any_of(diffusion, [&](NodeId id) {
                           return (graph_[id].dependence & on_species) != 0;
                         });
@@ -76,9 +80,9 @@ class KineticsBuilder {
  private:
   void add_reaction() {
     const Equations& e = equations_;
-    kinetics_.rates_ = program(e.rate);
-    kinetics_.split_ = program(join(e.c2, e.c3));
-    kinetics_.jacobian_ = program(e.jacobian);
+    kinetics_.rates_ = program(e.rate, e.gradients);
+    kinetics_.split_ = program(join(e.c2, e.c3), e.gradients);
+    kinetics_.jacobian_ = program(e.jacobian, e.gradients);
     for (std::size_t i = 0; i < e.pin.size(); ++i)
       kinetics_.pin_.push_back(e.pin[i] ? bounded(*e.pin[i], i) : std::vector<double>{});
   }
@@ -93,7 +97,7 @@ class KineticsBuilder {
     return species;
   }
 
-  Kinetics::Program program(const std::vector<NodeId>& expressions) {
+  Kinetics::Program program(const std::vector<NodeId>& expressions, const std::vector<NodeId>& gradients) {
     std::vector<NodeId> roots = rewrite(graph_, expressions, [&](NodeId id) -> std::optional<NodeId> {
       if (graph_[id].op != Op::symbol || graph_.symbol_of(id).kind != Symbol::Kind::species) return std::nullopt;
       return clamped(id);
@@ -103,7 +107,7 @@ class KineticsBuilder {
     const std::vector<NodeId> of_place = maximal(graph_, roots, on_place);
     result.fields = fields(of_place);
     result.time_expressions = maximal(graph_, roots, on_time);
-    result.tape = Tape(graph_, roots, join(equations_.species, of_place), result.time_expressions);
+    result.tape = Tape(graph_, roots, join(join(equations_.species, gradients), of_place), result.time_expressions);
     return result;
   }
 
@@ -144,7 +148,7 @@ Kinetics::Kinetics(const Model& model, const Places& places, std::uint64_t seed,
 
 void Kinetics::run(const Program& program, SpeciesValues u, double t, std::size_t begin, std::size_t end,
                    SpeciesOutput out) const {
-  assert(u.size() == species_count() && end <= size_);
+  assert(u.size() <= input_count() && end <= size_);
   std::vector<const double*> inputs(u.begin(), u.end());
   for (const std::size_t field : program.fields) inputs.push_back(fields_[field].data());
   program.tape.run(inputs, scalars(program, t), begin, end, out);
@@ -173,7 +177,7 @@ Kinetics::FloatFunction Kinetics::float_function(const Program& program, double 
 
 void Kinetics::run(const Program& program, std::span<const float> scalars, std::span<const float* const> u,
                    std::size_t first, std::size_t count, std::span<float* const> out) const {
-  assert(u.size() == species_count() && first + count <= size_);
+  assert(u.size() == input_count() && first + count <= size_);
   std::array<const float*, 16> few;  // an allocation would cost as much as a block of samples
   std::vector<const float*> many;
   const auto& fields = float_fields(program);
@@ -201,6 +205,10 @@ void Kinetics::jacobian(SpeciesValues u, double t, std::size_t begin, std::size_
 void Kinetics::diffusion(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput c0,
                          SpeciesOutput c1) const {
   run(diffusion_, u, t, begin, end, join(c0, c1));
+}
+
+void Kinetics::fluxes(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput out) const {
+  run(fluxes_, u, t, begin, end, out);
 }
 
 Kinetics::TensorField Kinetics::anisotropy(std::size_t i) const {

@@ -44,8 +44,8 @@ using SpeciesOutput = std::span<double* const>;
 /// concentrations clamped to the bounds of the model: with b >= 0, rates use max(b, 0).
 class Kinetics {
  public:
-  /// What is known: everything, or diffusion() and anisotropy() alone, with initial() where a diffusion depends on
-  /// concentrations.
+  /// What is known: everything, or diffusion(), fluxes() and anisotropy() alone, with initial() where a diffusion
+  /// depends on concentrations.
   enum class Parts { all, diffusion };
 
   /// Copies what it needs from `places`. Error(usage), located in the model, if the model uses normals,
@@ -54,6 +54,9 @@ class Kinetics {
 
   std::size_t size() const { return size_; }
   std::size_t species_count() const { return initial_.size(); }
+  /// What rates(), split() and jacobian() read at every sample: the species, then Equations::gradients [1 / model
+  /// length unit^2].
+  std::size_t input_count() const { return initial_.size() + gradient_count_; }
 
   /// R of every species.
   void rates(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput out) const;
@@ -71,6 +74,8 @@ class Kinetics {
   /// C0 and C1 of every species (C0 = 1 where C0 is constant: then C1 holds the product).
   void diffusion(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput c0,
                  SpeciesOutput c1) const;
+  /// The coefficients of Equations::fluxes.
+  void fluxes(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput out) const;
   /// Diffusion tensor of an anisotropic species (react/model.h), one value per sample.
   struct TensorField {
     std::vector<double> theta, a1, a2;
@@ -88,7 +93,7 @@ class Kinetics {
     std::once_flag once;
     std::vector<std::vector<float>> fields;
   };
-  /// A tape whose inputs are the species and then some of `fields_`.
+  /// A tape whose inputs are the species, gradients where it reads them, and then some of `fields_`.
   struct Program {
     Tape tape;
     std::vector<std::size_t> fields;       ///< which of fields_
@@ -104,13 +109,13 @@ class Kinetics {
            std::size_t count, std::span<float* const> out) const;
   std::vector<double> scalars(const Program& program, double t) const;
 
-  std::size_t size_ = 0;
+  std::size_t size_ = 0, gradient_count_ = 0;
   Graph graph_;
   std::vector<std::vector<double>> fields_;   ///< expressions of the place alone, one value per sample
   std::vector<std::vector<double>> initial_;  ///< one value per sample, or one for all
   std::vector<std::vector<double>> pin_;      ///< likewise; empty for species without
   std::vector<std::array<std::vector<double>, 3>> anisotropy_;  ///< theta, a1, a2 likewise; empty where isotropic
-  Program rates_, split_, jacobian_, diffusion_;
+  Program rates_, split_, jacobian_, diffusion_, fluxes_;
 };
 
 /// The mask of a model that holds concentrations, one value per place: not 0 where they are held.

@@ -95,8 +95,16 @@ class Lexer {
     const char c = rest().front();
     if (c == '=') throw Error(Fault::usage, "'=' is not an operator; equality is written a == b", where_);
     if (std::string_view("+-*/^()<>,").find(c) != std::string_view::npos) return take(Token::Kind::sign, 1);
+    if (c == '|')
+      throw Error(Fault::usage, "'|' has no meaning in a formula; |a| is written abs(a), and |grad u|^2 grad2(u)",
+                  where_);
     std::size_t length = 1;
     while (length < rest().size() && is_continuation_byte(rest()[length])) ++length;
+    if (rest().substr(0, length) == "\xE2\x88\x87")
+      throw Error(
+          Fault::usage,
+          "'\xE2\x88\x87' has no meaning in a formula; the Laplacian of u is written lap(u), |grad u|^2 grad2(u)",
+          where_);
     throw Error(Fault::usage, "character '" + printable(rest().substr(0, length)) + "' has no meaning in a formula",
                 where_);
   }

@@ -11,6 +11,7 @@
 #include "base/suggest.h"
 #include "react/derivative.h"
 #include "react/formula.h"
+#include "react/gradient_terms.h"
 #include "react/laplacian.h"
 #include "react/linear_split.h"
 
@@ -73,6 +74,8 @@ class Compiler {
     add_changes();
     for (const SpeciesSource& species : source_.species) add_equation(species);
     find_followers();
+    equations_.gradients = gradient_products(graph_, equations_.rate);
+    add_own_fluxes();
     for (std::size_t i = 0; i < source_.species.size(); ++i) check_coupling(i);
     require_nothing_held_is_coupled();
     add_wavelength_law();
@@ -171,9 +174,12 @@ class Compiler {
                double otherwise) {
     if (!formula) return graph_.constant(otherwise);
     const NodeId id = parse_formula(graph_, *formula, scope_, "species." + species.name + "." + key);
-    if (key != "rate" && key != "equals" && has_laplacian(graph_, id))
-      fail("lap() can stand in `rate` and in `equals` only", formula->where);
-    return id;
+    const std::string found = key == "rate" ? "" : differential_operator(graph_, id);
+    if (found.empty() || (key == "equals" && found != "div()")) return id;
+    const bool flows = key == "diffusion" || key == "C0" || key == "C1";
+    fail(found + " can stand in `rate`" + (found == "div()" ? "" : " and in `equals`") + " only" +
+             (flows ? "; make a species that equals it" : ""),
+         formula->where);
   }
 
   NodeId require_initial(NodeId id, const Location& where) {
@@ -277,8 +283,8 @@ class Compiler {
     LinearSplit split;
     bool laplacians = false;
     if (species.rate || species.equals) {
-      rate =
-          species.rate ? outside(parse(species, "rate", species.rate, 0)) : parse(species, "equals", species.equals, 0);
+      rate = species.rate ? outside(scaled_gradients(without_fluxes(parse(species, "rate", species.rate, 0), species)))
+                          : parse(species, "equals", species.equals, 0);
       laplacians = has_laplacian(graph_, rate);
       if (laplacians) rate = without_laplacians(rate, species);
       split = linear_split(graph_, rate, u.id);
@@ -286,7 +292,9 @@ class Compiler {
       split = {outside(parse(species, "C2", species.c2, 0)), outside(parse(species, "C3", species.c3, 0))};
       rate = (Term{&graph_, split.c2} * u + Term{&graph_, split.c3}).id;
     }
-    if (!species.diffusion && !species.anisotropy && !species.c0 && !species.c1 && !species.equals && !laplacians)
+    const bool diffuses = species.diffusion || species.anisotropy || species.c0 || species.c1 || laplacians ||
+                          own_flux(equations_.rate.size());
+    if (!diffuses && !species.equals)
       fail("species \"" + species.name + "\" has no diffusion; give 0 if it does not diffuse", species.where);
     has_laplacian_.push_back(laplacians);
     equations_.rate.push_back(rate);
@@ -309,6 +317,47 @@ class Compiler {
     return split.rest;
   }
 
+  /// Moves div() into `fluxes`.
+  NodeId without_fluxes(NodeId rate, const SpeciesSource& species) {
+    const FluxSplit split = split_fluxes(graph_, rate, species.rate->where);
+    for (const Flux& flux : split.fluxes)
+      equations_.fluxes.push_back({equations_.rate.size(), flux.of, scaled_diffusion(flux.coefficient)});
+    return split.rest;
+  }
+
+  /// Products of gradients are those of a larger pattern.
+  NodeId scaled_gradients(NodeId rate) {
+    if (!size_) return rate;
+    return rewrite(graph_, std::array{rate}, [&](NodeId id) -> std::optional<NodeId> {
+      if (graph_[id].op != Op::symbol || graph_.symbol_of(id).kind != Symbol::Kind::gradients) return std::nullopt;
+      return graph_.make(Op::multiply, id, graph_.make(Op::power, *size_, graph_.constant(2)));
+    })[0];
+  }
+
+  const Flux* own_flux(std::size_t i) const {
+    const auto own =
+        std::ranges::find_if(equations_.fluxes, [&](const Flux& f) { return f.species == i && f.of == i; });
+    return own == equations_.fluxes.end() ? nullptr : &*own;
+  }
+
+  /// What drives a species down its own gradient is diffusion, which is implicit, unless that has to be a number.
+  void add_own_fluxes() {
+    for (const Flux& flux : equations_.fluxes)
+      if (!graph_.constant_value(equations_.prefactor[flux.species]))
+        fail("C0 of species \"" + source_.species[flux.species].name + "\" varies; its rate cannot contain div()",
+             source_.species[flux.species].c0->where);
+    for (std::size_t i = 0; i < equations_.species.size(); ++i) {
+      const Flux* own = own_flux(i);
+      if (own && equations_.anisotropy[i])
+        fail("species \"" + source_.species[i].name +
+                 "\" is anisotropic; its rate cannot contain div() of its own gradient",
+             source_.species[i].rate->where);
+      if (!own || is_coupled(equations_, i)) continue;
+      equations_.diffusion[i] = graph_.make(Op::add, equations_.diffusion[i], own->coefficient);
+      equations_.fluxes.erase(equations_.fluxes.begin() + (own - equations_.fluxes.data()));
+    }
+  }
+
   /// Algebraic species that have no Laplacian, and whose values and Laplacians no equation of another reads.
   void find_followers() {
     const std::size_t n = equations_.species.size();
@@ -321,11 +370,24 @@ class Compiler {
       const auto& a = equations_.anisotropy[i];
       std::vector<NodeId> read = {equations_.rate[i], equations_.prefactor[i], equations_.diffusion[i]};
       if (a) read.insert(read.end(), {a->theta, a->a1, a->a2});
-      for (const NodeId id : reachable(graph_, read))
-        if (graph_[id].op == Op::symbol && graph_.symbol_of(id).kind == Symbol::Kind::species &&
-            graph_.symbol_of(id).index != static_cast<int>(i))
-          equations_.follows[static_cast<std::size_t>(graph_.symbol_of(id).index)] = 0;
+      for (const Flux& flux : equations_.fluxes)
+        if (flux.species == i) read.insert(read.end(), {flux.coefficient, equations_.species[flux.of]});
+      for (const std::size_t j : species_in(read))
+        if (j != i) equations_.follows[j] = 0;
     }
+  }
+
+  /// The species whose values or gradients formulas read.
+  std::vector<std::size_t> species_in(const std::vector<NodeId>& formulas) const {
+    std::vector<std::size_t> list;
+    for (const NodeId id : reachable(graph_, formulas)) {
+      if (graph_[id].op != Op::symbol) continue;
+      const Symbol& symbol = graph_.symbol_of(id);
+      const bool gradients = symbol.kind == Symbol::Kind::gradients;
+      if (gradients || symbol.kind == Symbol::Kind::species) list.push_back(static_cast<std::size_t>(symbol.index));
+      if (gradients) list.push_back(static_cast<std::size_t>(symbol.other));
+    }
+    return list;
   }
 
   /// What Laplacians and algebraic species ask of an equation; known when all are.
@@ -352,9 +414,7 @@ class Compiler {
 
   void check_algebraic(std::size_t i) {
     const SpeciesSource& species = source_.species[i];
-    for (const NodeId id : reachable(graph_, std::array{equations_.rate[i]})) {
-      if (graph_[id].op != Op::symbol || graph_.symbol_of(id).kind != Symbol::Kind::species) continue;
-      const auto j = static_cast<std::size_t>(graph_.symbol_of(id).index);
+    for (const std::size_t j : species_in({equations_.rate[i]})) {
       if (equations_.algebraic[j])
         fail("`equals` of \"" + species.name + "\" uses \"" + source_.species[j].name +
                  "\" outside of lap(), which has no rate of its own; write its formula out",
@@ -381,7 +441,7 @@ class Compiler {
   void add_wavelength_law() {
     if (!source_.wavelength_law) return;
     const NodeId id = parse_formula(graph_, *source_.wavelength_law, scope_, "wavelength");
-    if ((graph_[id].dependence & (on_species | on_time)) || has_laplacian(graph_, id))
+    if (graph_[id].dependence & (on_species | on_time))
       fail("a wavelength must be a number or made of parameters", source_.wavelength_law->where);
     equations_.wavelength_law = id;
   }
@@ -487,6 +547,7 @@ void add_graph(Fingerprint& f, const Graph& graph) {
     const Symbol& s = graph.symbol_of(id);
     f.add(static_cast<std::uint64_t>(s.kind)).add(static_cast<std::uint64_t>(s.index)).add(s.name);
     f.add(s.stream).add(s.length);
+    if (s.other >= 0) f.add(static_cast<std::uint64_t>(s.other));
   }
 }
 
@@ -498,6 +559,8 @@ std::uint64_t Model::fingerprint() const {
   add_graph(f, e.graph);
   for (const auto* list : {&e.rate, &e.c2, &e.c3, &e.prefactor, &e.diffusion, &e.initial})
     for (const NodeId id : *list) f.add(static_cast<std::uint64_t>(id));
+  for (const Flux& flux : e.fluxes)
+    f.add(std::uint64_t{flux.species}).add(std::uint64_t{flux.of}).add(static_cast<std::uint64_t>(flux.coefficient));
   for (const auto& a : e.anisotropy)
     for (const NodeId id : a ? std::array{a->theta, a->a1, a->a2} : std::array{-1, -1, -1})
       f.add(static_cast<std::uint64_t>(id));

@@ -6,7 +6,8 @@
 // given either by a diffusion (C0 = 1, C1 = diffusion) and a rate R, or by C0, C1, C2, C3 one by one. A rate may
 // contain Laplacians of this and other species with constant coefficients; and a species w may be algebraic, w = f +
 // sum_j E_j lap(u_j) at every time, which makes equations of fourth order out of two of second order:
-//     du_i/dt = C0 div(C1 grad u_i) + sum_j D_ij lap(u_j) + R_i
+//     du_i/dt = C0 div(C1 grad u_i) + sum_j D_ij lap(u_j) + sum_j div(c_ij grad u_j) + R_i
+// Rates may also contain products of gradients of species (react/gradient_terms.h).
 
 #include <limits>
 #include <map>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "react/expression.h"
+#include "react/gradient_terms.h"
 #include "react/lexer.h"
 
 namespace pelage {
@@ -33,7 +35,8 @@ struct SpeciesSource {
   Location where;
   std::optional<Formula> diffusion;            ///< model length unit^2 / model time unit; "0" if it does not diffuse
   std::optional<AnisotropySource> anisotropy;  ///< instead of `diffusion`
-  std::optional<Formula> rate;                 ///< R: concentration / model time unit; may contain D lap(v)
+  std::optional<Formula> rate;                 ///< R: concentration / model time unit; may contain D lap(v),
+                                               ///< grad2(v), dot(grad u, grad v), div(c grad v)
   std::optional<Formula> equals;  ///< makes it algebraic, instead of all else: a formula in the evolving species and
                                   ///< in the Laplacians of all
   std::optional<Formula> c0, c1, c2,
@@ -140,7 +143,11 @@ struct Equations {
   std::vector<NodeId> species;    ///< the symbols
   std::vector<char> algebraic;    ///< u = R + Laplacians instead of du/dt = R + Laplacians
   std::vector<char> follows;      ///< algebraic, without Laplacians, and no equation of another species reads it
-  std::vector<NodeId> rate;       ///< R, without Laplacians; of algebraic species depends on evolving ones only
+  std::vector<NodeId> rate;       ///< R, without Laplacians and fluxes; of algebraic species depends on evolving ones
+                                  ///< only
+  std::vector<NodeId> gradients;  ///< the products of gradients that rates use: symbols
+  std::vector<Flux> fluxes;       ///< what else drives species, explicit in time; a species' own flux is here only
+                                  ///< where it is coupled, else in `diffusion`
   std::vector<NodeId> c2, c3;     ///< R = C2 u + C3
   std::vector<NodeId> prefactor;  ///< C0, 1 when it is constant (then it is part of `diffusion`)
   std::vector<NodeId> diffusion;  ///< C1, with the coefficient of the species' own Laplacian in its rate; where it is
@@ -173,6 +180,9 @@ class Model {
   std::vector<std::size_t> coupled() const;
   /// Coefficient of lap(u_j) in the equation of species i, j != i.
   double cross_diffusion(std::size_t i, std::size_t j) const { return equations_->cross[i * species_count() + j]; }
+
+  /// Whether rates know gradients of species: products of two, or fluxes.
+  bool has_gradients() const { return !equations_->gradients.empty() || !equations_->fluxes.empty(); }
 
   /// Whether species i diffuses differently along and across a direction field.
   bool anisotropic(std::size_t i) const { return equations_->anisotropy[i].has_value(); }

@@ -34,8 +34,9 @@ enum class Op : std::uint8_t {
   logical_and,
   logical_or,
   logical_not,
-  select,  ///< select(condition, if true, if false); both branches are evaluated
-  count    ///< number of operations
+  select,          ///< select(condition, if true, if false); both branches are evaluated
+  error_function,  ///< erf
+  count            ///< number of operations
 };
 
 /// Whether values jump where operands do not.
@@ -73,6 +74,7 @@ constexpr int arity(Op op) {
     case Op::cosine:
     case Op::tangent:
     case Op::hyperbolic_tangent:
+    case Op::error_function:
     case Op::logical_not:
       return 1;
     case Op::select:
@@ -106,6 +108,7 @@ T apply([[maybe_unused]] T a, [[maybe_unused]] T b, [[maybe_unused]] T c) {
   if constexpr (op == Op::cosine) return std::cos(a);
   if constexpr (op == Op::tangent) return std::tan(a);
   if constexpr (op == Op::hyperbolic_tangent) return std::tanh(a);
+  if constexpr (op == Op::error_function) return std::erf(a);
   if constexpr (op == Op::less) return a < b ? T{1} : T{0};
   if constexpr (op == Op::less_equal) return a <= b ? T{1} : T{0};
   if constexpr (op == Op::equal) return a == b ? T{1} : T{0};

@@ -159,6 +159,7 @@ std::vector<Symbol> place_symbols(const Model& model) {
   std::vector<NodeId> roots = e.rate;
   for (const auto* expressions : {&e.prefactor, &e.diffusion, &e.initial})
     roots.insert(roots.end(), expressions->begin(), expressions->end());
+  for (const Flux& flux : e.fluxes) roots.push_back(flux.coefficient);
   for (const auto& a : e.anisotropy)
     if (a) roots.insert(roots.end(), {a->theta, a->a1, a->a2});
   for (const auto& pin : e.pin)

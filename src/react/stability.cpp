@@ -57,6 +57,13 @@ class PointSystem {
   VectorXd diffusion(const VectorXd& u) const {
     return vector(equations_.prefactor, u).cwiseProduct(vector(equations_.diffusion, u));
   }
+  /// At [i * species + j], empty if there is none.
+  std::vector<double> fluxes(const VectorXd& u) const {
+    std::vector<double> values(equations_.fluxes.empty() ? 0 : size_ * size_);
+    for (const Flux& flux : equations_.fluxes)
+      values[flux.species * size_ + flux.of] = vector({flux.coefficient}, u)[0];
+    return values;
+  }
   bool within_bounds(const VectorXd& u) const {
     for (std::size_t i = 0; i < size_; ++i) {
       const double value = u[static_cast<Eigen::Index>(i)], slack = 1e-9 * (1 + std::fabs(value));
@@ -154,6 +161,7 @@ MatrixXd evolution(const Stability& stability, double k2) {
   MatrixXd matrix = jacobian_of(stability);
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
     matrix(i, i) -= k2 * stability.diffusion[static_cast<std::size_t>(i)];
+  if (!stability.fluxes.empty()) matrix -= k2 * square(stability.fluxes, matrix.rows());
   if (stability.cross.empty()) return matrix;
   matrix -= k2 * square(stability.cross, matrix.rows());
   std::vector<Eigen::Index> evolving, algebraic;
@@ -175,7 +183,7 @@ class Dispersion {
  public:
   explicit Dispersion(const Stability& stability) : stability_(stability) {
     std::vector<double> diffusions;
-    for (const auto* list : {&stability.diffusion, &stability.cross})
+    for (const auto* list : {&stability.diffusion, &stability.cross, &stability.fluxes})
       for (const double d : *list) diffusions.push_back(std::fabs(d));
     const double fastest = *std::ranges::max_element(diffusions);
     const double slowest = smallest_positive(diffusions);
@@ -305,6 +313,7 @@ Stability analyse_at(const Model& model, const std::vector<double>& steady_state
   const auto by_row = jacobian.reshaped<Eigen::RowMajor>();
   result.jacobian.assign(by_row.begin(), by_row.end());
   result.diffusion.assign(diffusion.begin(), diffusion.end());
+  result.fluxes = system.fluxes(state);
   if (!model.coupled().empty()) {
     result.cross = model.equations().cross;
     result.algebraic = model.equations().algebraic;

@@ -28,7 +28,7 @@ class Growth {
  public:
   explicit Growth(const Stability& stability) : stability_(stability) {
     double fastest = 0, slowest = 0;
-    for (const auto* list : {&stability.diffusion, &stability.cross})
+    for (const auto* list : {&stability.diffusion, &stability.cross, &stability.fluxes})
       for (const double signed_value : *list) {
         const double d = std::abs(signed_value);
         fastest = std::max(fastest, d);
@@ -103,7 +103,9 @@ std::optional<DiffusionThreshold> nearest_threshold(const Stability& stability, 
 }
 
 /// Two evolving species with a diffusion each: what the classical theory is about.
-bool classical_pair(const Stability& s) { return s.diffusion.size() == 2 && s.cross.empty() && s.algebraic.empty(); }
+bool classical_pair(const Stability& s) {
+  return s.diffusion.size() == 2 && s.cross.empty() && s.fluxes.empty() && s.algebraic.empty();
+}
 
 /// "WHAT = 0.3 > NAME = 0.2", or what relation there is; equal up to rounding does not hold.
 Condition condition(const std::string& what, double value, bool greater, const std::string& name, double bound) {

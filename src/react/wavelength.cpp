@@ -50,6 +50,7 @@ EquationValues values_of(const Model& model) {
     const auto value_of = [&](const Symbol& symbol) {
       if (symbol.kind == Symbol::Kind::time) return value(n);
       if (symbol.kind == Symbol::Kind::uniform) return 0.5;
+      if (symbol.kind == Symbol::Kind::gradients) return value(static_cast<std::uint64_t>(symbol.other));
       if (symbol.kind != Symbol::Kind::species) return 0.0;
       const auto i = static_cast<std::uint64_t>(symbol.index);
       return (k + i) % 4 == 3 ? -value(i) : value(i);
@@ -59,6 +60,7 @@ EquationValues values_of(const Model& model) {
       list.insert(list.end(), more.begin(), more.end());
     };
     append(values.rates, equations.rate);
+    for (const Flux& flux : equations.fluxes) append(values.others, {flux.coefficient});
     const std::vector<double> d = evaluate(equations.graph, diffusions, value_of);
     for (std::size_t i = 0; i < n; ++i) values.diffusions.push_back(d[i] * d[n + i]);
     for (const auto& a : equations.anisotropy) {
@@ -94,8 +96,8 @@ std::optional<double> change_of_units(const Model& reference, const Model& model
   const auto rate = common_factor(before.rates, now.rates),
              diffusion = common_factor(before.diffusions, now.diffusions);
   if (!rate || !diffusion) return std::nullopt;
-  // Formulas of algebraic species and coefficients of lap() would have to change in their own ways.
-  if (!model.coupled().empty() && (*rate != 1 || *diffusion != 1)) return std::nullopt;
+  // Formulas of algebraic species and coefficients of lap() and gradients would have to change in their own ways.
+  if ((!model.coupled().empty() || model.has_gradients()) && (*rate != 1 || *diffusion != 1)) return std::nullopt;
   return std::sqrt(*diffusion / *rate);
 }
 

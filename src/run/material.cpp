@@ -52,7 +52,7 @@ std::vector<double> mask_at(const StageProgram& stage, const Space& space, Sampl
 /// exactly what it was wherever all that make it up are.
 void add_mask(const StageProgram& stage, const Space& space, Material& material) {
   material.at_nodes.mask = mask_at(stage, space, SampleRule::vertices, material);
-  if (has_own_stiffness(stage.model))
+  if (acts_at_quadrature_points(stage.model))
     material.at_quadrature_points.mask = mask_at(stage, space, SampleRule::quadrature, material);
   for (const double m : material.at_nodes.mask) material.inside.push_back(m != 0);
   material.held = std::make_shared<const Held>(stage.excluded ? space.interior(material.inside) : material.inside);
@@ -106,6 +106,10 @@ bool has_own_stiffness(const Model& model) {
   return false;
 }
 
+bool acts_at_quadrature_points(const Model& model) {
+  return has_own_stiffness(model) || !model.equations().fluxes.empty();
+}
+
 Places PlaceFields::places(const Material::AtSamples& material, const StageProgram& stage) const {
   Places places{.positions = geometry.position,
                 .normals = geometry.normal,
@@ -132,7 +136,7 @@ Material make_material(const Program& program, const StageProgram& stage, const 
   Material material;
   material.attributes = attributes_at_nodes(program, stage, world, fields);
   material.at_nodes.drawn = drawn_once(world, stage, SampleRule::vertices);
-  if (has_own_stiffness(stage.model) || stage.stepper->samples == SampleRule::quadrature)
+  if (acts_at_quadrature_points(stage.model) || stage.stepper->samples == SampleRule::quadrature)
     material.at_quadrature_points.drawn = drawn_once(world, stage, SampleRule::quadrature);
   if (stage.model.anisotropic() && world.hierarchy())
     material.lines =

@@ -44,6 +44,8 @@ PlaceFields place_fields(const Model& model, const Space& space, SampleRule rule
 /// Whether the diffusion of species i needs a stiffness matrix of its own.
 bool has_own_stiffness(const Model& model, std::size_t i);
 bool has_own_stiffness(const Model& model);
+/// Whether any formula is evaluated at the quadrature points whatever the stepper: of a diffusion or a flux.
+bool acts_at_quadrature_points(const Model& model);
 
 /// Those textures of which one of the symbols speaks.
 std::vector<Texture> textures_read(const std::vector<Symbol>& symbols, const std::vector<Texture>& textures);

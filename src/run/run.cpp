@@ -275,7 +275,11 @@ void Run::follow_surface(double time) {
   if (state.past_rates.empty()) return;
   std::vector<Vector> samples;
   sample_fields(system(), state.past[0], samples);
-  evaluate_rates(system(), samples, state.time - state.past_steps[0], state.past_rates);
+  const double before = state.time - state.past_steps[0];
+  evaluate_rates(system(), samples, before, state.past_rates);
+  if (!system().fluxes) return;
+  const std::vector<Vector> fluxes = system().fluxes(state.past[0], before);
+  state.past_rates.insert(state.past_rates.end(), fluxes.begin(), fluxes.end());
 }
 
 /// Algebraic species follow from the others and have no amount of their own to keep.
@@ -533,6 +537,16 @@ Run::Snapshot Run::read_snapshot(const std::string& bytes) const {
   return s;
 }
 
+/// Whether these are rates at the samples and fluxes of the model's species.
+bool Run::has_rates(const std::vector<Vector>& rates, const StageProgram& stage) const {
+  const std::size_t species = stage.model.species_count();
+  if (rates.size() != (stage.model.equations().fluxes.empty() ? species : 2 * species)) return false;
+  const auto fluxes = rates.begin() + static_cast<std::ptrdiff_t>(species);
+  return has_sizes({rates.begin(), fluxes}, species, space().sampled(stage.stepper->samples).sampling->count()) &&
+         std::all_of(fluxes, rates.end(),
+                     [&](const Vector& f) { return f.size() == 0 || f.size() == space().unknowns(); });
+}
+
 /// Whether all sizes are those of this run.
 bool Run::fits(const Snapshot& s) const {
   const StageProgram& p = program_->stages[s.stage];
@@ -542,8 +556,7 @@ bool Run::fits(const Snapshot& s) const {
   for (const auto& fields : s.state.past) fits = fits && has_sizes(fields, species, unknowns);
   for (std::size_t k = 0; k < s.finished.size(); ++k)
     fits = fits && has_sizes(s.finished[k].fields, program_->stages[k].model.species_count(), unknowns);
-  if (p.stepper->keeps_rates && !s.state.past.empty())
-    fits = fits && has_sizes(s.state.past_rates, species, space().sampled(p.stepper->samples).sampling->count());
+  if (p.stepper->keeps_rates && !s.state.past.empty()) fits = fits && has_rates(s.state.past_rates, p);
   if (!world_.surface()) return fits;
   return fits && s.surface.scale > 0 && has_sizes(s.began_at, 1, 3 * std::ssize(program_->shape->points)) &&
          has_sizes(s.faired, 1, 3 * std::ssize(world_.surface()->state().fairing.points));

@@ -75,6 +75,7 @@ class Run {
   VertexAttributes finished_fields(const Space& space, const std::vector<FinishedStage>& finished) const;
   void next_stage();
   Snapshot read_snapshot(const std::string& bytes) const;
+  bool has_rates(const std::vector<Vector>& rates, const StageProgram& stage) const;
   bool fits(const Snapshot& snapshot) const;
   double stage_fraction() const;
   double next_step() const;

@@ -1,9 +1,11 @@
 #include "run/stage_system.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 
+#include "base/parallel.h"
 #include "discretise/anisotropy.h"
 #include "pelage/error.h"
 #include "time/step_support.h"
@@ -32,13 +34,14 @@ StageSystem::StageSystem(const StageProgram& stage, std::shared_ptr<const Space>
   system_.sampling = sampled.sampling;
   system_.held = material_->held;
   kinetics_ = kinetics_at(stage.stepper->samples, Kinetics::Parts::all);
-  if (has_own_stiffness(stage.model)) {
+  if (acts_at_quadrature_points(stage.model)) {
     quadrature_kinetics_ = kinetics_at(SampleRule::quadrature, Kinetics::Parts::diffusion);
     quadrature_values_ = space_->quadrature_values();
   }
   for (std::size_t i = 0; i < stage.model.species_count(); ++i) add_species(i);
   couple_species();
   add_reaction();
+  add_gradients();
 }
 
 std::shared_ptr<const Kinetics> StageSystem::kinetics_at(SampleRule rule, Kinetics::Parts parts) const {
@@ -93,6 +96,59 @@ void StageSystem::add_reaction() {
   system_.weighted_mass = [space = space_](const Vector& factor) {
     return space->weighted_mass(std::vector<double>(factor.begin(), factor.end()));
   };
+}
+
+namespace {
+
+/// -K(c) u of every flux, with c at the quadrature points.
+struct FluxLoads {
+  std::shared_ptr<const Space> space;
+  std::shared_ptr<const Kinetics> kinetics;  ///< at the quadrature points
+  SparseMatrix values;                       ///< quadrature points x unknowns
+  std::vector<Flux> fluxes;
+  double scale;  ///< model length^2 to world length^2
+
+  std::vector<std::vector<double>> coefficients(const std::vector<Vector>& u, double t) const {
+    std::vector<Vector> fields;
+    for (const Vector& field : u) fields.push_back(values * field);
+    std::vector<std::vector<double>> c(fluxes.size(), std::vector<double>(kinetics->size()));
+    std::vector<double*> out;
+    for (std::vector<double>& list : c) out.push_back(list.data());
+    const std::vector<const double*> in = pointers(fields);
+    parallel_for(kinetics->size(),
+                 [&](std::size_t begin, std::size_t end) { kinetics->fluxes(in, t, begin, end, out); });
+    return c;
+  }
+
+  std::vector<Vector> operator()(const std::vector<Vector>& u, double t) const {
+    const std::vector<std::vector<double>> c = coefficients(u, t);
+    std::vector<Vector> loads(u.size());
+    for (std::size_t k = 0; k < fluxes.size(); ++k) {
+      Vector& load = loads[fluxes[k].species];
+      if (load.size() == 0) load = Vector::Zero(space->unknowns());
+      axpby(-scale, space->stiffness(c[k]) * u[fluxes[k].of], 1, load);
+    }
+    return loads;
+  }
+};
+
+}  // namespace
+
+void StageSystem::add_gradients() {
+  const Equations& equations = stage_->model.equations();
+  const double scale = stage_->length_unit * stage_->length_unit;
+  std::vector<std::array<std::size_t, 2>> pairs;
+  for (const NodeId id : equations.gradients) {
+    const Symbol& symbol = equations.graph.symbol_of(id);
+    pairs.push_back({static_cast<std::size_t>(symbol.index), static_cast<std::size_t>(symbol.other)});
+  }
+  if (!pairs.empty())
+    system_.add_gradients = [space = space_, rule = stage_->stepper->samples, pairs, scale](
+                                const std::vector<Vector>& u, std::vector<Vector>& samples) {
+      for (const auto& [i, j] : pairs) samples.push_back(scale * space->gradient_product(rule, u[i], u[j]));
+    };
+  if (!equations.fluxes.empty())
+    system_.fluxes = FluxLoads{space_, quadrature_kinetics_, quadrature_values_, equations.fluxes, scale};
 }
 
 /// The stiffness of a species whose diffusion varies (with the initial state) or has directions.

@@ -36,6 +36,7 @@ class StageSystem {
   void add_species(std::size_t i);
   void couple_species();
   void add_reaction();
+  void add_gradients();
   void fill_own_stiffness(std::size_t i);
   void fill_variable(std::size_t i, const State* state);
   Vector samples_of(std::size_t i, const std::function<void(std::span<double>)>& fill) const;
@@ -46,8 +47,9 @@ class StageSystem {
   const StageProgram* stage_;
   std::shared_ptr<const Space> space_;
   std::shared_ptr<const Material> material_;
-  std::shared_ptr<const Kinetics> kinetics_;             ///< at the samples
-  std::shared_ptr<const Kinetics> quadrature_kinetics_;  ///< at the quadrature points, for diffusion that varies
+  std::shared_ptr<const Kinetics> kinetics_;  ///< at the samples
+  std::shared_ptr<const Kinetics>
+      quadrature_kinetics_;  ///< at the quadrature points, for diffusion that varies and fluxes
   SparseMatrix quadrature_values_;
   System system_;
 };

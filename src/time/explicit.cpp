@@ -14,6 +14,7 @@ class ForwardEuler final : public Stepper {
   StepReport step(const System& system, State& state, const StepRequest& request) override {
     sample_fields(system, state.now, samples_);
     evaluate_rates(system, samples_, state.time, rates_);
+    const std::vector<Vector> fluxes = system.fluxes ? system.fluxes(state.now, state.time) : std::vector<Vector>{};
     StepReport report;
     next_.resize(system.species.size());
     own_mass_.resize(system.species.size());
@@ -24,6 +25,7 @@ class ForwardEuler final : public Stepper {
       StepMatrix& mass = species.mass ? own_mass_[i] : mass_;
       mass.update(mass_of(system, i), 1, species.stiffness, 0);
       rhs_ = system.sampling->test * Vector(weight_of(system, i).cwiseProduct(rates_[i]));
+      add_flux(fluxes, i, 1, rhs_);
       if (species.coupled) {
         subtract_fluxes(system, state, i);
       } else {

@@ -7,6 +7,7 @@
 #include "base/dense.h"
 #include "base/parallel.h"
 #include "time/chebyshev.h"
+#include "time/explicit_gradients.h"
 #include "time/species_pairs.h"
 #include "time/step_support.h"
 
@@ -60,10 +61,10 @@ double nonnegative_radius(const Eigen::MatrixXd& a) {
 /// Memory for the blocks of one piece of work.
 class BlockWork {
  public:
-  BlockWork(std::size_t pairs, std::size_t species)
+  BlockWork(std::size_t pairs, std::size_t species, std::size_t gradients)
       : memory_(std::make_unique_for_overwrite<float[]>((8 * pairs + 1) * block_nodes)),
         pointers_(6 * pairs + species),
-        in_(species),
+        in_(species + gradients),
         pairs_(pairs) {
     for (std::size_t k = 0; k < 6 * pairs; ++k) pointers_[k] = memory_.get() + k * block_nodes;
     std::fill_n(unused(), block_nodes, 0.0f);
@@ -75,7 +76,7 @@ class BlockWork {
   float* product(std::size_t pair) { return memory_.get() + (6 * pairs_ + 2 * pair) * block_nodes; }
   /// Of species that are not worked on.
   float* unused() { return memory_.get() + 8 * pairs_ * block_nodes; }
-  /// Room for one pointer per species.
+  /// Room for one pointer per species, and then one per product of gradients.
   std::span<const float*> in() { return in_; }
   std::span<float*> out() { return std::span(pointers_).subspan(6 * pairs_); }
 
@@ -89,18 +90,21 @@ class BlockWork {
 /// u^(n+1) = u^n + d, where d comes of s stages, each an explicit evaluation of
 ///   f(u, t) = (I + E + ... + E^m) (-L^-1 D K u) + R(u, t),   E = I - L^-1 M,
 /// with the row sums L of the mass M: the sum is the inverse of L^-1 M cut off after m sweeps, and as 1'L E = 0 it
-/// moves no amount. The number of stages follows the stiffness, so that every step is stable. Stages are made for the
-/// difference d, which is added once, in double precision: single precision then limits what changes in a step, not
-/// the field. All that a step depends on is the state, so that a run continues from a checkpoint bit by bit.
+/// moves no amount. Fluxes are treated like the diffusion, in double precision as are the products of gradients in R.
+/// The number of stages follows the stiffness, so that every step is stable. Stages are made for the difference d,
+/// which is added once, in double precision: single precision then limits what changes in a step, not the field. All
+/// that a step depends on is the state, so that a run continues from a checkpoint bit by bit.
 class Rkc2 final : public Stepper {
  public:
   explicit Rkc2(const Rkc2Options& options)
-      : loops_(&node_loops(options.instructions)), pairs_(options.instructions, options.sweeps) {}
+      : loops_(&node_loops(options.instructions)),
+        pairs_(options.instructions, options.sweeps),
+        gradients_(options.sweeps) {}
   StepReport step(const System& system, State& state, const StepRequest& request) override;
 
  private:
   void bind(const System& system);
-
+  void find_gradients(const System& system, const Fields& y, const Fields* d, double t);
   void start_from(const System& system, const State& state);
   bool substep(const System& system, const std::vector<Vector>& now, double t, double dt, const StepRequest& request,
                StepReport& report);
@@ -129,12 +133,13 @@ class Rkc2 final : public Stepper {
   const NodeLoops* loops_;
   std::size_t nodes_ = 0, species_ = 0;
   SpeciesPairs pairs_;
+  ExplicitGradients gradients_;
   std::shared_ptr<const Sampling> sampling_;
   bool nodal_ = false;
   Fields y_, f_, g_, y_next_, f_next_, g_next_, d_, d_before_, product_, swept_;
-  std::vector<double> jacobian_;
-  std::vector<float> probe_, probe_next_;  ///< by how much species are changed to see the Jacobian
-  bool known_ = false;                     ///< f_ belongs to y_ at the time known_time_
+  std::vector<double> jacobian_, gradient_jacobian_;  ///< of the reaction; of the gradients on the shortest waves
+  std::vector<float> probe_, probe_next_;             ///< by how much species are changed to see the Jacobian
+  bool known_ = false;                                ///< f_ belongs to y_ at the time known_time_
   double known_time_ = 0;
   std::vector<Vector> next_, wide_, wide_rates_;
 };
@@ -176,25 +181,40 @@ void Rkc2::start_from(const System& system, const State& state) {
     probe_[i] = static_cast<float>(std::max(std::abs(minimum(state.now[i])), std::abs(maximum(state.now[i]))));
   probe_next_ = probe_;
   jacobian_ = evaluate(system, y_, state.time, nullptr, 0).jacobian;
+  gradient_jacobian_ = gradients_.jacobian(system, state.time);
   std::swap(f_, f_next_);
   std::swap(g_, g_next_);
   known_ = true;
   known_time_ = state.time;
 }
 
+/// Of y, or of y + d.
+void Rkc2::find_gradients(const System& system, const Fields& y, const Fields* d, double t) {
+  if (!system.add_gradients && !system.fluxes) return gradients_.clear();
+  std::vector<Vector> u(species_);
+  for (const std::size_t i : pairs_.evolving()) {
+    u[i].resize(static_cast<Eigen::Index>(nodes_));
+    const std::size_t pair = pairs_.place(i) / 2, lane = pairs_.place(i) % 2;
+    for (std::size_t k = 0; k < nodes_; ++k)
+      u[i][static_cast<Eigen::Index>(k)] =
+          static_cast<double>(y[pair][2 * k + lane]) + (d ? static_cast<double>((*d)[pair][2 * k + lane]) : 0);
+  }
+  gradients_.evaluate(system, std::move(u), t);
+}
+
 FloatRates Rkc2::rates_at(const System& system, double t) {
   if (system.reaction.float_rates) return system.reaction.float_rates(t);
-  for (std::vector<Vector>* fields : {&wide_, &wide_rates_})
-    fields->assign(species_, Vector(static_cast<Eigen::Index>(nodes_)));
+  wide_.assign(species_ + gradients_.products(), Vector(static_cast<Eigen::Index>(nodes_)));
+  wide_rates_.assign(species_, Vector(static_cast<Eigen::Index>(nodes_)));
   return [this, &system, t](std::span<const float* const> u, std::size_t first, std::size_t count,
                             std::span<float* const> rate) {
     FieldPointers in;
     MutableFieldPointers out;
-    for (std::size_t i = 0; i < species_; ++i) {
+    for (std::size_t i = 0; i < u.size(); ++i) {
       std::copy(u[i], u[i] + count, wide_[i].data() + first);
       in.push_back(wide_[i].data());
-      out.push_back(wide_rates_[i].data());
     }
+    for (Vector& rates_of : wide_rates_) out.push_back(rates_of.data());
     system.reaction.rates(in, t, first, first + count, out);
     for (std::size_t i = 0; i < species_; ++i)
       std::transform(out[i] + first, out[i] + first + count, rate[i], [](double r) { return static_cast<float>(r); });
@@ -210,7 +230,11 @@ void Rkc2::rates_of_block(const System& system, const FloatRates& rates, std::si
     work.in()[i] = work.u()[pairs_.place(i)];
     work.out()[i] = rate[pairs_.place(i)];
   }
+  for (std::size_t k = 0; k < gradients_.products(); ++k) work.in()[species_ + k] = gradients_.product(k) + first;
   rates(work.in(), first, count, work.out());
+  for (const std::size_t i : pairs_.evolving())
+    if (const float* flux = gradients_.flux(i))
+      for (std::size_t k = 0; k < count; ++k) rate[pairs_.place(i)][k] += flux[first + k];
   for (float* r : rate) std::fill(r + count, r + padded(count), 0.0f);
   for (std::size_t p = 0; p < pairs_.size(); ++p)
     if (pairs_[p].count < 2) std::fill_n(rate[2 * p + 1], count, 0.0f);
@@ -276,12 +300,13 @@ std::vector<ErrorTerms> Rkc2::error_terms(const System& system, double dt) const
 /// f_next_ and g_next_ at y and t. With the step d that led from y_ to y, also the sums of the error estimate.
 RateSums Rkc2::evaluate(const System& system, const Fields& y, double t, const Fields* d, double dt) {
   before_last(y);
+  find_gradients(system, y, nullptr, t);
   const FloatRates rates = rates_at(system, t);
   const FloatRates jacobian = system.reaction.float_jacobian ? system.reaction.float_jacobian(t) : FloatRates{};
   const std::vector<ErrorTerms> terms = error_terms(system, dt);
   const auto partial = [&](std::size_t begin, std::size_t end) {
     RateSums sums(species_);
-    BlockWork work(pairs_.size(), species_);
+    BlockWork work(pairs_.size(), species_, gradients_.products());
     for (std::size_t first = begin; first < end; first += block_nodes) {
       const std::size_t count = std::min(block_nodes, end - first), at = 2 * first;
       for (std::size_t p = 0; p < pairs_.size(); ++p)
@@ -369,6 +394,8 @@ double Rkc2::stiffness() const {
   const auto n = static_cast<Eigen::Index>(species_);
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Eigen::MatrixXd bound = jacobian_margin * Eigen::Map<const RowMajor>(jacobian_.data(), n, n);
+  if (!gradient_jacobian_.empty())
+    bound += jacobian_margin * Eigen::Map<const RowMajor>(gradient_jacobian_.data(), n, n);
   for (const std::size_t i : pairs_.evolving())
     bound(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) += radius_margin * pairs_.radius(i);
   return nonnegative_radius(bound);
@@ -410,11 +437,12 @@ void Rkc2::take_stages(const System& system, double t, double dt, int s) {
       of_pair.first = static_cast<float>(stage.first * dt);
     }
     before_last(d_);
+    find_gradients(system, y_, &d_, t + stages[j - 1].time * dt);
     const FloatRates rates = rates_at(system, t + stages[j - 1].time * dt);
     parallel_for(
         nodes_,
         [&](std::size_t begin, std::size_t end) {
-          BlockWork work(pairs_.size(), species_);
+          BlockWork work(pairs_.size(), species_, gradients_.products());
           for (std::size_t first = begin; first < end; first += block_nodes) {
             const std::size_t count = std::min(block_nodes, end - first), at = 2 * first;
             for (std::size_t p = 0; p < pairs_.size(); ++p)
@@ -455,7 +483,7 @@ void Rkc2::finish(const System& system, const std::vector<Vector>& now, double d
   const std::size_t pieces = chunk_count(nodes_, piece_nodes);
   std::vector<SpeciesSums> parts(pieces * species_);
   parallel_chunks(pieces, [&](std::size_t piece) {
-    BlockWork work(pairs_.size(), species_);
+    BlockWork work(pairs_.size(), species_, gradients_.products());
     const std::size_t end = std::min(nodes_, (piece + 1) * piece_nodes);
     for (std::size_t first = piece * piece_nodes; first < end; first += block_nodes) {
       const std::size_t count = std::min(block_nodes, end - first);
@@ -526,6 +554,7 @@ bool Rkc2::substep(const System& system, const std::vector<Vector>& now, double 
   std::swap(g_, g_next_);
   probe_ = probe_next_;
   jacobian_ = sums.jacobian;
+  gradient_jacobian_ = gradients_.jacobian(system, t + dt);
   known_time_ = t + dt;
   return true;
 }

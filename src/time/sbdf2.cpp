@@ -36,7 +36,7 @@ class Sbdf2 final : public Stepper {
   CoupledSolver coupled_;
   void sample(const System& system, const State& state);
 
-  std::vector<Vector> samples_, samples_before_, rates_, rates_before_, next_;
+  std::vector<Vector> samples_, samples_before_, rates_, rates_before_, fluxes_, fluxes_before_, next_;
   Vector combined_, rhs_;
   // What samples_ are of.
   std::shared_ptr<const Sampling> sampled_by_;
@@ -53,7 +53,7 @@ Sbdf2::Scheme Sbdf2::scheme(const State& state, double dt) {
 }
 
 /// rhs_ = A'W (s.now u^n + s.before u^(n-1) + s.rate_now R^n + s.rate_before R^(n-1)), all at the samples, because
-/// M u = A'W (A u).
+/// M u = A'W (A u); and the fluxes, which are loads already.
 void Sbdf2::right_hand_side(const System& system, const Scheme& s, std::size_t i) {
   const Vector& weight = weight_of(system, i);
   combined_.resize(weight.size());
@@ -66,6 +66,8 @@ void Sbdf2::right_hand_side(const System& system, const Scheme& s, std::size_t i
     }
   });
   apply(system.sampling->test, combined_, rhs_);
+  add_flux(fluxes_, i, s.rate_now, rhs_);
+  if (!first) add_flux(fluxes_before_, i, s.rate_before, rhs_);
 }
 
 /// The first two steps have no third derivative to go by. The local error of Euler's method, dt^2 u''/2, is about the
@@ -82,8 +84,17 @@ double Sbdf2::early_error(const System& system, const State& state, const std::v
   return worst;
 }
 
+/// The square of what errors of a field are relative to: its size or, where rates know gradients, which a constant does
+/// not change, its deviation from the mean, but not less than a hundredth of the size.
+double reference_square(const System& system, const Vector& field, double square) {
+  if (!system.add_gradients && !system.fluxes) return square;
+  const double amount = sum(field), deviation = square - amount * amount / static_cast<double>(field.size());
+  return std::max(deviation, 1e-4 * square);
+}
+
 /// The local error of backward differences of second order, 2/9 dt^3 u''', and as much again twice for the extrapolated
-/// reaction; u''' from the third divided difference. Root mean square, relative to the size of the field. Coefficients
+/// reaction; u''' from the third divided difference. Root mean square, relative to the size of the field or what
+/// reference_square() says. Coefficients
 /// that a clamp holds or has just let go have no third derivative; of those, only the part by which a step shoots
 /// through the clamp counts as error, without which reactions too fast for the step would go unseen.
 double Sbdf2::error_estimate(const System& system, const State& state, const std::vector<Vector>& next, double dt) {
@@ -113,7 +124,8 @@ double Sbdf2::error_estimate(const System& system, const State& state, const std
       return sum;
     };
     const auto sums = ordered_sum(static_cast<std::size_t>(u0.size()), Eigen::Array2d{0, 0}, partial);
-    if (sums[1] > 0) worst = std::max(worst, std::sqrt(sums[0] / std::max(sums[1], negligible_square(u0))));
+    const double reference = std::max(reference_square(system, u0, sums[1]), negligible_square(u0));
+    if (sums[1] > 0) worst = std::max(worst, std::sqrt(sums[0] / reference));
   }
   return worst;
 }
@@ -170,12 +182,22 @@ void Sbdf2::sample(const System& system, const State& state) {
   sampled_at_ = state.step;
 }
 
+/// Adds a constant such that alpha M x + dt K x = b, summed, holds to rounding: what only flows keeps its amount
+/// whatever the tolerance of the solver.
+void balance(const SparseMatrix& mass, double alpha, const Vector& b, Vector& x) {
+  const Vector weight = mass * Vector::Ones(mass.rows());
+  x.array() += (sum(b) / alpha - dot(weight, x)) / sum(weight);
+}
+
 StepReport Sbdf2::step(const System& system, State& state, const StepRequest& request) {
   const double dt = request.dt;
   const Scheme s = scheme(state, dt);
   sample(system, state);
   evaluate_rates(system, samples_, state.time, rates_);
+  fluxes_ = system.fluxes ? system.fluxes(state.now, state.time) : std::vector<Vector>{};
   if (!state.past.empty()) rates_before_ = state.past_rates;
+  if (!state.past.empty() && system.fluxes)
+    fluxes_before_.assign(rates_before_.begin() + std::ssize(system.species), rates_before_.end());
   StepReport report;
   matrices_.resize(system.species.size());
   next_.resize(system.species.size());
@@ -187,6 +209,8 @@ StepReport Sbdf2::step(const System& system, State& state, const StepRequest& re
     right_hand_side(system, s, i);
     first_guess(system, state, i, dt);
     matrices_[i].solve(rhs_, next_[i], system.held.get(), species.name, request.solver_tolerance, report);
+    if (i < fluxes_.size() && fluxes_[i].size() > 0 && !system.held)
+      balance(*mass_of(system, i), s.alpha, rhs_, next_[i]);
   }
   if (!system.coupled.index.empty()) solve_coupled(system, state, s, request, report);
   if (report.failure.empty()) {
@@ -194,7 +218,10 @@ StepReport Sbdf2::step(const System& system, State& state, const StepRequest& re
     if (report.error > request.largest_error) return report;
   }
   advance(system, state, dt, next_, report);
-  if (report.accepted) state.past_rates = rates_;
+  if (report.accepted) {
+    state.past_rates = rates_;
+    if (system.fluxes) state.past_rates.insert(state.past_rates.end(), fluxes_.begin(), fluxes_.end());
+  }
   return report;
 }
 

@@ -23,6 +23,7 @@ class SemiImplicitEuler final : public Stepper {
     sample_fields(system, state.now, samples_);
     split(system, state.time);
     next_ = state.now;
+    const std::vector<Vector> fluxes = system.fluxes ? system.fluxes(state.now, state.time) : std::vector<Vector>{};
     for (std::size_t i = 0; i < system.species.size() && report.failure.empty(); ++i) {
       const Species& species = system.species[i];
       if (species.follows) continue;
@@ -31,7 +32,8 @@ class SemiImplicitEuler final : public Stepper {
       const SparseMatrix reaction = system.weighted_mass(c2_[i].cwiseProduct(over_c0));
       combine(1, mass, -dt, reaction, matrix_);
       combine(1, matrix_, dt * species.diffusion, *species.stiffness, matrix_);
-      const Vector b = mass * state.now[i] + dt * load(*system.sampling, c3_[i].cwiseProduct(over_c0));
+      Vector b = mass * state.now[i] + dt * load(*system.sampling, c3_[i].cwiseProduct(over_c0));
+      add_flux(fluxes, i, dt, b);
       note_solve(conjugate_gradient(matrix_, Jacobi(diagonal(matrix_)), b, next_[i], nullptr,
                                     {.tolerance = request.solver_tolerance}, work_),
                  species.name, report);
@@ -44,12 +46,12 @@ class SemiImplicitEuler final : public Stepper {
   void split(const System& system, double t) {
     FieldPointers u;
     MutableFieldPointers c2, c3;
-    c2_.resize(samples_.size());
-    c3_.resize(samples_.size());
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      c2_[i].resize(samples_[i].size());
-      c3_[i].resize(samples_[i].size());
-      u.push_back(samples_[i].data());
+    for (const Vector& field : samples_) u.push_back(field.data());
+    c2_.resize(system.species.size());
+    c3_.resize(system.species.size());
+    for (std::size_t i = 0; i < c2_.size(); ++i) {
+      c2_[i].resize(system.sampling->count());
+      c3_[i].resize(system.sampling->count());
       c2.push_back(c2_[i].data());
       c3.push_back(c3_[i].data());
     }

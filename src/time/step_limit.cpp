@@ -1,6 +1,7 @@
 #include "time/step_limit.h"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -28,6 +29,7 @@ VectorXd split_at(const Model& model, const std::vector<double>& state) {
   const Kinetics kinetics(model, places, 0);
   const std::size_t n = state.size();
   std::vector<double> c2(n), c3(n);
+  const double level = 0;  // the product of any two gradients
   std::vector<const double*> u;
   std::vector<double*> c2_out, c3_out;
   for (std::size_t i = 0; i < n; ++i) {
@@ -35,17 +37,21 @@ VectorXd split_at(const Model& model, const std::vector<double>& state) {
     c2_out.push_back(&c2[i]);
     c3_out.push_back(&c3[i]);
   }
+  u.resize(kinetics.input_count(), &level);
   kinetics.split(u, 0, 0, 1, c2_out, c3_out);
   return Eigen::Map<VectorXd>(c2.data(), static_cast<Eigen::Index>(n));
 }
 
-bool stable(const Linearisation& l, const StepperKind& stepper, double dt, double largest_k2) {
+/// `flux`: of explicit fluxes, as Linearisation::diffusion.
+bool stable(const Linearisation& l, const MatrixXd& flux, const StepperKind& stepper, double dt, double largest_k2) {
   // The schemes are first-order at least: round-off and the truncation of exp() stay within the allowance.
   const double allowed = std::exp(1.5 * dt * l.growth) * (1 + 1e-6);
   constexpr int waves = 80;
   for (int i = 0; i <= waves; ++i) {
     const double mu = i == 0 ? 0 : largest_k2 * std::pow(1e-6, 1 - static_cast<double>(i) / waves);
-    const MatrixXd g = stepper.amplification(l, dt, mu * l.diffusion);
+    Linearisation wave = l;
+    wave.jacobian -= mu * flux;
+    const MatrixXd g = stepper.amplification(wave, dt, mu * l.diffusion);
     if (!g.allFinite() || eigenvalues(g).cwiseAbs().maxCoeff() > allowed) return false;
   }
   return true;
@@ -67,18 +73,21 @@ double largest_stable_step(const Model& model, const StepperKind& stepper, doubl
     if (s.algebraic[i]) l.evolving[static_cast<Eigen::Index>(i)] = 0;
   l.c2 = split_at(model, s.steady_states[s.chosen]);
   l.growth = std::max(0.0, s.growth);
-  const double rate = l.jacobian.cwiseAbs().maxCoeff() + largest_k2 * l.diffusion.cwiseAbs().maxCoeff();
+  MatrixXd flux = MatrixXd::Zero(n, n);
+  if (!s.fluxes.empty()) flux = Eigen::Map<const RowMajor>(s.fluxes.data(), n, n);
+  const double rate = l.jacobian.cwiseAbs().maxCoeff() +
+                      largest_k2 * std::max(l.diffusion.cwiseAbs().maxCoeff(), flux.cwiseAbs().maxCoeff());
   if (!(rate > 0)) return std::numeric_limits<double>::infinity();
   constexpr double ratio = 1.1;
   double good = 1e-3 / rate;
-  while (stable(l, stepper, good * ratio, largest_k2)) {
+  while (stable(l, flux, stepper, good * ratio, largest_k2)) {
     good *= ratio;
     if (good * rate > 1e9) return std::numeric_limits<double>::infinity();
   }
   double bad = good * ratio;
   for (int i = 0; i < 30; ++i) {
     const double middle = (good + bad) / 2;
-    (stable(l, stepper, middle, largest_k2) ? good : bad) = middle;
+    (stable(l, flux, stepper, middle, largest_k2) ? good : bad) = middle;
   }
   return good;
 }

@@ -11,19 +11,24 @@ namespace pelage {
 void sample_fields(const System& system, const std::vector<Vector>& coefficients, std::vector<Vector>& samples) {
   samples.resize(coefficients.size());
   for (std::size_t i = 0; i < coefficients.size(); ++i) apply(system.sampling->values, coefficients[i], samples[i]);
+  if (system.add_gradients) system.add_gradients(coefficients, samples);
 }
 
 void evaluate_rates(const System& system, const std::vector<Vector>& samples, double t, std::vector<Vector>& rates) {
   FieldPointers u;
   MutableFieldPointers out;
-  rates.resize(samples.size());
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    rates[i].resize(samples[i].size());
-    u.push_back(samples[i].data());
-    out.push_back(rates[i].data());
+  rates.resize(system.species.size());
+  for (const Vector& field : samples) u.push_back(field.data());
+  for (Vector& rate : rates) {
+    rate.resize(system.sampling->count());
+    out.push_back(rate.data());
   }
   parallel_for(static_cast<std::size_t>(system.sampling->count()),
                [&](std::size_t begin, std::size_t end) { system.reaction.rates(u, t, begin, end, out); });
+}
+
+void add_flux(const std::vector<Vector>& fluxes, std::size_t i, double factor, Vector& rhs) {
+  if (i < fluxes.size() && fluxes[i].size() > 0) axpby(factor, fluxes[i], 1, rhs);
 }
 
 void follow(const System& system, double t, std::vector<Vector>& coefficients) {

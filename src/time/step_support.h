@@ -6,11 +6,14 @@
 
 namespace pelage {
 
-/// Fields at the samples.
+/// Fields at the samples, and products of gradients behind them.
 void sample_fields(const System& system, const std::vector<Vector>& coefficients, std::vector<Vector>& samples);
 
 /// Reaction rates at the samples.
 void evaluate_rates(const System& system, const std::vector<Vector>& samples, double t, std::vector<Vector>& rates);
+
+/// Adds `factor` times the flux of a species to its right-hand side, if it has one.
+void add_flux(const std::vector<Vector>& fluxes, std::size_t species, double factor, Vector& rhs);
 
 /// Replaces the coefficients of the species that Species::follows by those that the others determine at time t.
 void follow(const System& system, double t, std::vector<Vector>& coefficients);

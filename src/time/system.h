@@ -2,7 +2,8 @@
 // What a stepper sees: the semi-discrete system  M du_i/dt = -K_i u_i + load(R_i(u, t)),  one row per species i,
 // the generalised PDE (2) of Bajaj, Zhang, Xu 2008 after discretisation in space, and the state that it advances.
 // Coupled species have M du_i/dt = -sum_j D_ij K u_j + load(R_i), or, where algebraic, M u_i = -sum_j D_ij K u_j +
-// load(R_i) with an R_i that depends on evolving species only.
+// load(R_i) with an R_i that depends on evolving species only. R may also depend on products of gradients, and fluxes
+// -integral of c grad u_j . grad phi may be added to the loads: steppers take both explicitly.
 
 #include <functional>
 #include <limits>
@@ -17,7 +18,7 @@
 
 namespace pelage {
 
-/// Values of all species at the same samples: one pointer per species.
+/// Values of all species at the same samples: one pointer per species, then one per product of gradients.
 using FieldPointers = std::vector<const double*>;
 using MutableFieldPointers = std::vector<double*>;
 
@@ -71,6 +72,11 @@ struct System {
   CoupledSpecies coupled;
   std::shared_ptr<const Held> held;  ///< coefficients that stay as they are, of all species; null: none
   Reaction reaction;
+  /// Appends what rates read behind the species, products of gradients, to the samples of all species; empty: nothing.
+  std::function<void(const std::vector<Vector>& coefficients, std::vector<Vector>& samples)> add_gradients;
+  /// The loads of the fluxes at time t, which sum to 0: one field per species, empty where it has none. Empty: there
+  /// are none.
+  std::function<std::vector<Vector>(const std::vector<Vector>& coefficients, double t)> fluxes;
   /// Mass matrix weighted by a factor at the samples; only semi-implicit Euler needs it.
   std::function<SparseMatrix(const Vector& factor)> weighted_mass;
 };
@@ -91,7 +97,8 @@ struct State {
   std::vector<Vector> now;                ///< coefficients per species
   std::vector<std::vector<Vector>> past;  ///< up to two earlier states, the latest first
   std::vector<double> past_steps;         ///< past_steps[k]: time between states k and k+1 back
-  std::vector<Vector> past_rates;         ///< reaction at the latest earlier state, at the samples (SBDF2)
+  std::vector<Vector> past_rates;         ///< reaction at the latest earlier state, at the samples, and then
+                                          ///< its fluxes, if the system has any (SBDF2)
 };
 
 }  // namespace pelage

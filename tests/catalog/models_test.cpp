@@ -45,6 +45,12 @@ class ShippedModel : public testing::TestWithParam<std::string> {
     for (std::size_t k = 0; k < values.size() / samples; ++k) result.push_back(values.data() + k * samples);
     return result;
   }
+  /// Of the species, and behind them products of gradients.
+  std::vector<const double*> inputs(const std::vector<double>& u) const {
+    std::vector<const double*> result = rows(u);
+    result.resize(n_ + model_.equations().gradients.size(), gradients_.data());
+    return result;
+  }
   static std::vector<double*> rows(std::vector<double>& values) {
     std::vector<double*> result;
     for (std::size_t k = 0; k < values.size() / samples; ++k) result.push_back(values.data() + k * samples);
@@ -52,14 +58,14 @@ class ShippedModel : public testing::TestWithParam<std::string> {
   }
   std::vector<double> rates(const Kinetics& kinetics, const std::vector<double>& u) const {
     std::vector<double> result(n_ * samples);
-    kinetics.rates(rows(u), 0.3, 0, samples, rows(result));
+    kinetics.rates(inputs(u), 0.3, 0, samples, rows(result));
     return result;
   }
 
   Model model_;
   std::size_t n_;
   std::vector<Point> points_;
-  std::vector<double> zero_ = std::vector<double>(samples, 0.0), u_;
+  std::vector<double> zero_ = std::vector<double>(samples, 0.0), gradients_ = std::vector<double>(samples, 0.7), u_;
 };
 
 TEST_P(ShippedModel, IsDescribed) {
@@ -76,7 +82,7 @@ TEST_P(ShippedModel, SplitRestoresTheRate) {
   const Kinetics k = kinetics();
   const std::vector<double> rate = rates(k, u_);
   std::vector<double> c2(n_ * samples), c3(n_ * samples);
-  k.split(rows(u_), 0.3, 0, samples, rows(c2), rows(c3));
+  k.split(inputs(u_), 0.3, 0, samples, rows(c2), rows(c3));
   for (std::size_t i = 0; i < rate.size(); ++i) {
     const double scale = std::fabs(c2[i] * u_[i]) + std::fabs(c3[i]);
     ASSERT_NEAR(c2[i] * u_[i] + c3[i], rate[i], 1e-12 * (1 + scale));
@@ -86,7 +92,7 @@ TEST_P(ShippedModel, SplitRestoresTheRate) {
 TEST_P(ShippedModel, JacobianAgreesWithDifferences) {
   const Kinetics k = kinetics();
   std::vector<double> jacobian(n_ * n_ * samples);
-  k.jacobian(rows(u_), 0.3, 0, samples, rows(jacobian));
+  k.jacobian(inputs(u_), 0.3, 0, samples, rows(jacobian));
   for (std::size_t j = 0; j < n_; ++j) {
     const double h = 1e-5;
     std::vector<double> more = u_, less = u_;

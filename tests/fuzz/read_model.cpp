@@ -25,6 +25,7 @@ void evaluate(const Model& model) {
     in.push_back(u[i].data());
     out.push_back(rate[i].data());
   }
+  in.resize(kinetics.input_count(), zero.data());  // products of gradients
   kinetics.rates(in, 0.5, 0, place.size(), out);
 }
 

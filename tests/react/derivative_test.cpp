@@ -54,6 +54,7 @@ TEST(Derivative, AgreesWithCentralDifferences) {
                            "cos(3*u)",
                            "tan(u/2)",
                            "tanh(2*u)",
+                           "erf(u - x)",
                            "sinh(2*u)",
                            "cosh(u - 1)",
                            "log10(1 + u*u)",

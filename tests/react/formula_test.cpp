@@ -46,6 +46,8 @@ TEST(Formula, Functions) {
   EXPECT_DOUBLE_EQ(value_of("exp(x) + log(y) + sqrt(z)", 1, 2, 3), std::exp(1.0) + std::log(2.0) + std::sqrt(3.0));
   EXPECT_DOUBLE_EQ(value_of("sin(x) + cos(y) + tan(z) + tanh(t)", 1, 2, 3, 4),
                    std::sin(1.0) + std::cos(2.0) + std::tan(3.0) + std::tanh(4.0));
+  EXPECT_DOUBLE_EQ(value_of("erf(x)", 0.5), 0.52049987781304654);  // Abramowitz, Stegun, table 7.1
+  EXPECT_EQ(value_of("erf(x)", -7) + value_of("erf(x)", 0), -1);
   EXPECT_EQ(value_of("heaviside(x)", 0) + value_of("heaviside(x)", 2) + value_of("heaviside(x)", -1e-9), 2);
   EXPECT_EQ(value_of("sign(x) + 10*sign(y) + 100*sign(z)", -3, 0, 2), 99);
   EXPECT_EQ(value_of("ln(x)", 3), std::log(3.0));
@@ -83,6 +85,7 @@ TEST(Formula, FaultsAreLocatedAndSayWhatWasExpected) {
       {"1e999", "m.toml:7:11: number 1e999 is too large or too small"},
       {"1 +\n  cosb(2)", "m.toml:8:3: unknown function \"cosb\"; did you mean \"cos\"?"},
       {"laplacian(2)", "m.toml:7:11: unknown function \"laplacian\"; the Laplacian of u is written lap(u)"},
+      {"erfc(2)", "m.toml:7:11: unknown function \"erfc\"; erfc(a) is written 1 - erf(a)"},
       {"sgn(2)", "m.toml:7:11: unknown function \"sgn\"; the sign of a is written sign(a)"},
       {"2*time", "m.toml:7:13: unknown name \"time\"; the time is written t"},
       {"2*bta", "m.toml:7:13: unknown name \"bta\"; did you mean \"beta\"?"},

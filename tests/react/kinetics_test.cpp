@@ -192,6 +192,10 @@ TEST(Kinetics, RatesOfEveryModelInSinglePrecisionAreThoseInDouble) {
       single_in.push_back(single[i].data() + first);
       single_out.push_back(single_rate[i].data());
     }
+    const std::vector<double> gradients(samples, 0.25);
+    const std::vector<float> single_gradients(samples, 0.25f);
+    in.resize(kinetics.input_count(), gradients.data());
+    single_in.resize(kinetics.input_count(), single_gradients.data());
     kinetics.rates(in, 0.7, 0, samples, out);
     kinetics.float_rates(0.7)(single_in, first, count, single_out);
     for (std::size_t i = 0; i < n; ++i) {

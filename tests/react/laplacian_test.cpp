@@ -79,7 +79,7 @@ TEST(Laplacian, FaultsAreLocated) {
             "formula, found '*'");
   EXPECT_EQ(fault(with_rate("lap u")), "m.toml:3:9: \"lap\" is a function: expected '(' after it");
   EXPECT_EQ(fault("[species.u]\nrate = 'u'\ndiffusion = 'lap(u)'"),
-            "m.toml:4:14: lap() can stand in `rate` and in `equals` only");
+            "m.toml:4:14: lap() can stand in `rate` and in `equals` only; make a species that equals it");
   EXPECT_EQ(fault("[species.u]\nrate = 'lap(v)'\ndiffusion = 'x'\n[species.v]\nrate = '0'\ndiffusion = 1"),
             "m.toml:4:14: the diffusion of species \"u\" varies; one that is linked to others by lap() must be made of "
             "numbers and parameters");

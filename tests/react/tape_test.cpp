@@ -62,6 +62,8 @@ double recursive(const Graph& graph, NodeId id, const Sample& at) {
       return std::tan(in(0));
     case Op::hyperbolic_tangent:
       return std::tanh(in(0));
+    case Op::error_function:
+      return std::erf(in(0));
     case Op::less:
       return in(0) < in(1);
     case Op::less_equal:

@@ -76,6 +76,7 @@ void expect_growth_of_theory(const std::string& model, std::size_t shown) {
 }
 
 TEST(CoupledGrowth, SwiftHohenberg) { expect_growth_of_theory("swift-hohenberg", 1); }
+TEST(CoupledGrowth, KuramotoSivashinsky) { expect_growth_of_theory("kuramoto-sivashinsky", 1); }
 TEST(CoupledGrowth, CahnHilliard) { expect_growth_of_theory("cahn-hilliard:droplets", 1); }
 TEST(CoupledGrowth, OhtaKawasaki) { expect_growth_of_theory("ohta-kawasaki:dots", 1); }
 TEST(CoupledGrowth, ComplexGinzburgLandau) { expect_growth_of_theory("complex-ginzburg-landau:turbulent", 0); }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <functional>
 #include <numbers>
 
 #include "catalog/models.h"
@@ -71,6 +73,17 @@ class FlatGrid final : public Space {
     return k;
   }
   SparseMatrix stiffness(const std::vector<Tensor>&) const override { return *stiffness_; }  // no test asks for it
+  /// By the means of central differences in three rows, and columns, with weights 1/4, 1/2, 1/4.
+  Vector gradient_product(SampleRule, const Vector& u, const Vector& v) const override {
+    const auto slope = [&](const Vector& f, Index k, Index dx, Index dy) {
+      const auto difference = [&](Index other) { return f[at(other, dx, dy)] - f[at(other, -dx, -dy)]; };
+      return (2 * difference(k) + difference(at(k, dy, dx)) + difference(at(k, -dy, -dx))) / 4;
+    };
+    Vector product(unknowns());
+    for (Index k = 0; k < unknowns(); ++k)
+      product[k] = slope(u, k, 1, 0) * slope(v, k, 1, 0) + slope(u, k, 0, 1) * slope(v, k, 0, 1);
+    return product / (4 * area_);
+  }
   ElementPoint element_point(Index face, double, double) const override {  // as if there were one node to a face
     return {{face}, RowMatrix::Identity(3, 1)};
   }
@@ -165,6 +178,79 @@ TEST(FlatGrid, StagesHoldPinAndMap) {
       EXPECT_NEAR(run.coefficients()[1][v], 3 + p[1], 1e-12);
     }
   }
+}
+
+/// Kuramoto-Sivashinsky on a flat torus of `waves` of its fastest waves along each side.
+Growth kuramoto_sivashinsky(Index n, double waves, const ModelSource& source) {
+  Program program;
+  StageProgram& stage = program.stages.emplace_back();
+  stage.model = compile(source);
+  stage.stepper = &sbdf2;
+  stage.length_unit = 1 / (waves * 2 * std::numbers::pi * std::numbers::sqrt2);
+  stage.size = stage.length_unit * model_wavelength(stage.model);
+  stage.suggested_step = 0.1;
+  stage.until = 1e9;
+  return Growth(std::make_shared<const Program>(std::move(program)), World(std::make_shared<FlatGrid>(n)));
+}
+
+/// The wave number that five points see in m waves along a side of 1, squared.
+double seen_k2(Index n, Index m) { return std::pow(2 * n * std::sin(std::numbers::pi * m / n), 2); }
+
+/// sigma = k^2 - k^4.
+TEST(FlatGrid, OneWaveOfKuramotoSivashinskyGrowsAsItsDispersionRelationSays) {
+  ModelSource source = load_model("kuramoto-sivashinsky");
+  const Index n = 48, m = 4;
+  source.species[1].initial = Formula{"1e-6*cos(8*pi*x)", {}};
+  Growth run = kuramoto_sivashinsky(n, 4, source);
+  run.advance(20);
+  const double before = run.coefficients()[1].maxCoeff(), begun = run.summary().time;
+  run.advance(80);
+  const double k2 = seen_k2(n, m) * std::pow(run.stage_program().length_unit, 2);
+  const double rate = std::log(run.coefficients()[1].maxCoeff() / before) / (run.summary().time - begun);
+  EXPECT_NEAR(rate / (k2 - k2 * k2), 1, 0.05);
+  EXPECT_NEAR(k2, 0.5, 0.02);
+}
+
+/// Mean energy k^2 |u_k|^2 of the waves of a field whose wave numbers round to m times 2 pi / side.
+std::vector<double> energy_by_waves(Index n, const Vector& u) {
+  Eigen::MatrixXcd wave(n, n);
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < n; ++j) wave(i, j) = std::polar(1.0, -2 * std::numbers::pi * (i * j % n) / n);
+  const Eigen::MatrixXcd field = Eigen::Map<const Eigen::MatrixXd>(u.data(), n, n).cast<std::complex<double>>();
+  const Eigen::MatrixXcd transform = wave * field * wave;
+  std::vector<double> energy(static_cast<std::size_t>(n)), count = energy;
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < n; ++j) {
+      const double k2 = seen_k2(n, i) + seen_k2(n, j);
+      const auto m = static_cast<std::size_t>(std::lround(std::sqrt(k2) / (2 * std::numbers::pi)));
+      energy[m] += k2 * std::norm(transform(i, j));
+      ++count[m];
+    }
+  for (std::size_t m = 0; m < energy.size(); ++m) energy[m] /= std::max(count[m], 1.0);
+  return energy;
+}
+
+/// The energy of the chaos has its peak near the fastest wave, k = 1/sqrt(2).
+TEST(FlatGrid, KuramotoSivashinskyIsChaoticNearItsFastestWave) {
+  const Index n = 56;
+  const double waves = 5;
+  Growth run = kuramoto_sivashinsky(n, waves, load_model("kuramoto-sivashinsky"));
+  constexpr int moments = 60;
+  std::vector<double> energy(static_cast<std::size_t>(n));
+  double variance = 0;
+  for (int k = 0; k < moments; ++k) {
+    run.advance(k == 0 ? 400 : 10);
+    ASSERT_NE(run.summary().status, RunStatus::failed) << run.summary().message;
+    const Vector& u = run.coefficients()[1];
+    std::ranges::transform(energy, energy_by_waves(n, u), energy.begin(), std::plus<>());
+    variance += (u.array() - u.mean()).square().mean() / moments;
+  }
+  const auto peak = std::ranges::max_element(energy);
+  const double below = peak[-1], at = peak[0], above = peak[1];
+  const double k = static_cast<double>(peak - energy.begin()) + (below - above) / (2 * (below - 2 * at + above));
+  RecordProperty("peak", std::to_string(k / waves));
+  EXPECT_NEAR(k / waves, 1, 0.1);
+  EXPECT_NEAR(std::sqrt(variance), 4.2, 0.8);
 }
 
 }  // namespace

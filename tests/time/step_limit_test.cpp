@@ -39,5 +39,15 @@ TEST(StepLimit, ExplicitStepOfAFourthOrderEquationFallsWithTheFourthPower) {
   EXPECT_NEAR(largest_stable_step(model, explicit_euler, 100) * (99.0 * 99.0 - 0.3), 2, 1e-3);
 }
 
+/// u flees from v, which follows it: lambda^2 + (1 + K) lambda + q K = 0 with K = k^2 and the coefficient q of the
+/// flux. On the circle |1 + dt lambda| = 1 of complex lambda dt = (1 + K) / (q K).
+TEST(StepLimit, ExplicitFluxesCount) {
+  const Model model = compile(parse_model(
+      "name='m'\nspecies.u={diffusion=0, rate='div(1000*u grad v)', initial=1}\nspecies.v={diffusion=1, rate='u - v', "
+      "initial=1}",
+      "m.toml"));
+  EXPECT_NEAR(largest_stable_step(model, explicit_euler, 1000), 1001 / 1e6, 1e-6);
+}
+
 }  // namespace
 }  // namespace pelage
