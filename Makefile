@@ -43,12 +43,11 @@ asan: setup  ## every test under the address and undefined-behaviour sanitizers
 	@$(CMAKE_BUILD) asan
 	@ctest --preset asan --parallel $(JOBS)
 
-fuzz:  ## ten minutes of random texts for the model reader; what crashes it stays in build/fuzz
+fuzz:  ## ten minutes of random bytes for every reader; what crashes one stays in build/fuzz/found
 	@sh tools/setup.sh clang
 	@cmake --preset fuzz
-	@$(CMAKE_BUILD) fuzz --target model_fuzzer
-	@mkdir -p build/fuzz/found
-	cd build/fuzz && bin/model_fuzzer -max_total_time=600 -timeout=20 -max_len=20000 found ../../tests/fuzz/corpus ../../models
+	@$(CMAKE_BUILD) fuzz --target input_fuzzer
+	@sh tools/fuzz.sh 50
 
 format:  ## bring all sources into the house's format
 	@clang-format -i $(CXX_FILES)

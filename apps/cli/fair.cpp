@@ -112,8 +112,8 @@ template <class Result>
 void finish(const FairCommand& command, const ShapeFile& file, const Result& result, ProgressBar& bar) {
   bar.clear();
   if (!command.quiet && !command.json) print_findings(file.findings);
-  const std::vector<std::string> warnings =
-      save_all(in_form_of_file(command, file, result.mesh), command.outputs, {object_name(command.shape), file.up});
+  const std::vector<std::string> warnings = save_all(in_form_of_file(command, file, result.mesh), command.outputs,
+                                                     {object_name(file, command.shape), file.up});
   if (command.json) {
     Json json = to_json(command, result.report);
     json["findings"] = json_findings(file.findings);

@@ -163,7 +163,7 @@ void run_field(const FieldCommand& o) {
   std::vector<std::string> warnings;
   if (!o.outputs.empty()) {
     const std::vector<std::string> before = direction_attributes(mesh);
-    warnings = save_all(with_field(mesh, c, field), o.outputs, {object_name(o.shape), up});
+    warnings = save_all(with_field(mesh, c, field), o.outputs, {object_name(file, o.shape), up});
     if (!before.empty()) warn("the new field takes the place of " + join_names(before) + " of the shape", warnings);
   }
   if (!o.picture.empty()) draw(o, mesh, up, c, field, bar.progress());

@@ -228,7 +228,7 @@ void grow(const GrowOptions& options) {
   const Grown grown =
       grown_coat(options, planned, recipe.look, std::move(file.mesh), std::move(images), progress, report);
   const UpAxis up = options.up.value_or(file.up);
-  const SaveOptions form{object_name(recipe.shape), up};
+  const SaveOptions form{object_name(file, recipe.shape), up};
   if (recipe.look.keep_shape)
     write_outputs(options, kept_shape(form_of_shape(file, *grown.shape), grown.coat, grown.paint), form, progress,
                   report);

@@ -62,9 +62,10 @@ std::string wrapped(const std::string& text, std::size_t indent, std::size_t wid
   return result + margin + line + "\n";
 }
 
-std::string object_name(const std::string& shape) {
-  if (!is_builtin_shape(shape)) return std::filesystem::path(shape).stem().string();
-  const std::string name = shape.substr(shape.find(':') + 1);
+std::string object_name(const ShapeFile& file, const std::string& path) {
+  if (!file.name.empty()) return file.name;
+  if (!is_builtin_shape(path)) return std::filesystem::path(path).stem().string();
+  const std::string name = path.substr(path.find(':') + 1);
   return name.substr(0, name.find('?'));
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/number.h"
+#include "pelage/io.h"
 
 namespace pelage {
 
@@ -20,8 +21,9 @@ std::string duration(double seconds);
 /// The text with its line breaks turned into blanks, and other control characters into question marks.
 std::string one_line(std::string text);
 
-/// "cow" for models/cow.obj and for builtin:cow?n=900: the name of the shape in files that name it.
-std::string object_name(const std::string& shape);
+/// The name of the shape in files that name it: that of the file's only object, else "cow" for models/cow.obj and for
+/// builtin:cow?n=900.
+std::string object_name(const ShapeFile& file, const std::string& path);
 
 /// The text, broken at blanks into lines of at most `width` characters, each after `indent` blanks.
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t width = 100);

@@ -23,6 +23,8 @@ struct ShapeFile {
   TriangleMesh mesh;              ///< checked, repaired, polygons cut into triangles
   std::vector<Finding> findings;  ///< what was found in the file and what was done about it
   UpAxis up = UpAxis::y;          ///< z where the file says that it comes from Blender
+  /// Of the only object, where the file names it; else empty.
+  std::string name = {};
   /// What the file itself has, for as_in_file(); nullptr for built-in shapes and meshes of your own.
   std::shared_ptr<const SourceShape> source = nullptr;
 };

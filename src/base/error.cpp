@@ -12,7 +12,10 @@ std::string to_string(const Location& where) {
 namespace {
 std::string join(const std::string& message, const Location& where) {
   const std::string place = to_string(where);
-  return place.empty() ? message : place + ": " + message;
+  std::string line = place.empty() ? message : place + ": " + message;
+  for (char& c : line)  // what stands in a file may be quoted
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+  return line;
 }
 }  // namespace
 

@@ -20,18 +20,16 @@ std::string stem(std::string name) {
   return name;
 }
 
-/// One name for all that is read of a colour, "flow_1 to flow_3" for a vector.
+/// One name for all that is read of a colour, "flow_1, ..." for a vector.
 std::string short_list(const std::vector<std::string>& known) {
+  const auto has = [&](const std::string& name) { return std::ranges::count(known, name) > 0; };
   std::vector<std::string> names;
   for (const std::string& name : known) {
-    const std::string whole = stem(name);
-    if (whole == name)
+    const std::string whole = stem(name), first = whole + "_1";
+    if (whole == name || !(has(whole) || has(first)))
       names.push_back(name);
-    else if (std::ranges::count(known, whole) == 0 && std::ranges::count(known, whole + "_1") > 0 &&
-             name.ends_with("_1"))
-      names.push_back(name + ", ...");
-    else if (std::ranges::count(known, whole) == 0 && std::ranges::count(known, whole + "_1") == 0)
-      names.push_back(name);
+    else if (!has(whole) && name == first)
+      names.push_back(first + ", ...");
   }
   return names.empty() ? "none" : join_names(names);
 }
@@ -51,7 +49,8 @@ std::string components(const std::string& name, const TriangleMesh& shape) {
 std::string why(const std::vector<std::string>& known) {
   const bool painted = std::ranges::count(known, "color") > 0;
   return std::string(painted ? "; a painted colour arrives as \"color\"" : "") +
-         "; exporters leave attributes out: GLB has them if its option for attributes is on (of Blender's those that begin "
+         "; exporters leave attributes out: GLB has them if its option for attributes is on (of Blender's those that "
+         "begin "
          "with _), and PLY often no weights and no floating-point colours";
 }
 

@@ -116,7 +116,7 @@ void for_entries(const Value& document, const std::string& key, Fill&& fill) {
 }
 
 ModelSource model(const Value& document) {
-  if (document.find("stage") && !document.find("species"))
+  if (!document.find("species") && document.find("stage"))
     throw Error(Fault::usage, "this is a recipe, not a model; give it as --recipe", {document.where().file});
   ModelSource result;
   result.where = document.where();

@@ -51,8 +51,8 @@ class Space {
   virtual SparseMatrix stiffness(const std::vector<double>& c) const = 0;
   virtual SparseMatrix stiffness(const std::vector<Tensor>& c) const = 0;
 
-  /// grad u . grad v at the samples, of functions with these coefficients [1 / world^2]; where they have kinks at nodes,
-  /// of means of their gradients around.
+  /// grad u . grad v at the samples, of functions with these coefficients [1 / world^2]; where they have kinks at
+  /// nodes, of means of their gradients around.
   virtual Vector gradient_product(SampleRule rule, const Vector& u, const Vector& v) const = 0;
 
   /// At (1-v-w) a + v b + w c of the triangle `face` = (a, b, c).

@@ -28,6 +28,25 @@ FaceLists collect(std::size_t count, MakeList&& make_list) {
   return result;
 }
 
+/// Around a vertex of more faces than this, those of its faces that are at most `reach` edges away count as near. With
+/// all of them the work would grow with the third power of their number.
+constexpr std::size_t many_around = 64;
+constexpr int reach = 16;
+
+/// The faces near f around its corner k.
+void append_near(const Topology& topology, std::size_t f, int k, std::vector<Index>& list) {
+  const auto first = static_cast<Index>(3 * f);
+  Index out = first + k, in = first + (k + 2) % 3;  // half-edges of the face, from the vertex and to it
+  for (int step = 0; step < reach && (in >= 0 || out >= 0); ++step) {
+    if (out >= 0) out = topology.twin[out];
+    if (in >= 0) in = topology.twin[in];
+    for (const Index h : {out, in})
+      if (h >= 0) list.push_back(h / 3);
+    if (out >= 0) out = next_halfedge(out);
+    if (in >= 0) in = previous_halfedge(in);
+  }
+}
+
 }  // namespace
 
 FaceGeometry face_geometry(const std::vector<Triangle>& triangles, const std::vector<Point>& points) {
@@ -73,9 +92,13 @@ FaceLists faces_of_vertices(const Topology& topology) {
 
 FaceLists neighbours(const Topology& topology, const FaceLists& faces_of_vertex) {
   return collect(topology.triangles.size(), [&](std::size_t f, std::vector<Index>& list) {
-    for (Index v : topology.triangles[f]) {
-      const auto around = faces_of_vertex[v];
-      list.insert(list.end(), around.begin(), around.end());
+    list.push_back(static_cast<Index>(f));
+    for (int k = 0; k < 3; ++k) {
+      const auto around = faces_of_vertex[topology.triangles[f][k]];
+      if (around.size() > many_around)
+        append_near(topology, f, k, list);
+      else
+        list.insert(list.end(), around.begin(), around.end());
     }
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());

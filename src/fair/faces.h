@@ -38,7 +38,8 @@ struct FaceLists {
 /// The faces around every vertex, ascending.
 FaceLists faces_of_vertices(const Topology& topology);
 
-/// The faces that share a vertex with each face, itself included, ascending.
+/// The faces that share a vertex with each face, itself included, ascending. Of a vertex with very many faces only the
+/// nearest ones around it count.
 FaceLists neighbours(const Topology& topology, const FaceLists& faces_of_vertex);
 
 /// For every face the faces that are reached through neighbours whose centroids lie within radius[f] of its own, in

@@ -7,8 +7,8 @@ namespace pelage {
 
 namespace {
 
-/// (M + tau K) x^(n+1) = M x^n with cotangent weights (Desbrun, Meyer, Schroeder, Barr 1999); fixed vertices are put
-/// back.
+/// (M + tau K) x^(n+1) = M x^n with cotangent weights (Desbrun, Meyer, Schroeder, Barr 1999), solved for the step,
+/// which does not depend on where the mesh lies; fixed vertices stay.
 class Isotropic final : public FairMethod {
  public:
   explicit Isotropic(double tau) : tau_(tau) {}
@@ -16,16 +16,17 @@ class Isotropic final : public FairMethod {
   void step(FairState& s, FairReport& report) override {
     const Discretisation d = linear_discretisation(s.topology);
     const Assembler assembler(d);
-    const SparseMatrix mass = assembler.mass(s.points);
+    const SparseMatrix stiffness = assembler.stiffness(s.points);
+    const double time = tau_ * report.mean_edge * report.mean_edge;
     SparseMatrix matrix;
-    combine(1, mass, tau_ * report.mean_edge * report.mean_edge, assembler.stiffness(s.points), matrix);
+    combine(1, assembler.mass(s.points), time, stiffness, matrix);
     const std::vector<Point> before = s.points;
     for (std::size_t k = 0; k < 3; ++k) {
       Vector x(static_cast<Eigen::Index>(before.size()));
       for (std::size_t v = 0; v < before.size(); ++v) x[static_cast<Eigen::Index>(v)] = before[v][k];
-      x = solve_spd(matrix, mass * x, {.tolerance = 1e-9});
+      const Vector step = solve_spd(matrix, -time * (stiffness * x), {.tolerance = 1e-9});
       for (std::size_t v = 0; v < before.size(); ++v)
-        if (!s.fixed[v]) s.points[v][k] = x[static_cast<Eigen::Index>(v)];
+        if (!s.fixed[v]) s.points[v][k] += step[static_cast<Eigen::Index>(v)];
     }
   }
 

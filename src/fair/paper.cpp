@@ -21,17 +21,18 @@ Eigen::Matrix3d as_matrix(const Tensor& t) {
   return m;
 }
 
-/// Solves (M + tau K) x = M x0 for the three coordinates.
+/// Solves (M + tau K) x = M x0 for the three coordinates, by their steps x - x0: these do not depend on where the mesh
+/// lies.
 std::vector<Point> diffused(const SparseMatrix& mass, const SparseMatrix& stiffness, double tau,
                             const std::vector<Point>& points) {
   SparseMatrix matrix;
   combine(1, mass, tau, stiffness, matrix);
-  std::vector<Point> result(points.size());
+  std::vector<Point> result = points;
   for (std::size_t k = 0; k < 3; ++k) {
     Vector x(static_cast<Eigen::Index>(points.size()));
     for (Eigen::Index v = 0; v < x.size(); ++v) x[v] = points[at(v)][k];
-    x = solve_spd(matrix, mass * x, {.tolerance = 1e-8});
-    for (Eigen::Index v = 0; v < x.size(); ++v) result[at(v)][k] = x[v];
+    const Vector step = solve_spd(matrix, -tau * (stiffness * x), {.tolerance = 1e-8});
+    for (Eigen::Index v = 0; v < x.size(); ++v) result[at(v)][k] += step[v];
   }
   return result;
 }

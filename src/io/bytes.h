@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string>
 
+#include "base/checked.h"
 #include "pelage/triangle_mesh.h"
 
 namespace pelage {
@@ -29,17 +30,17 @@ inline void append_number(std::string& bytes, NumberType type, double value) {
     case NumberType::float64:
       return append_bytes(bytes, value);
     case NumberType::int8:
-      return append_bytes(bytes, static_cast<std::int8_t>(value));
+      return append_bytes(bytes, saturated<std::int8_t>(value));
     case NumberType::uint8:
-      return append_bytes(bytes, static_cast<std::uint8_t>(value));
+      return append_bytes(bytes, saturated<std::uint8_t>(value));
     case NumberType::int16:
-      return append_bytes(bytes, static_cast<std::int16_t>(value));
+      return append_bytes(bytes, saturated<std::int16_t>(value));
     case NumberType::uint16:
-      return append_bytes(bytes, static_cast<std::uint16_t>(value));
+      return append_bytes(bytes, saturated<std::uint16_t>(value));
     case NumberType::int32:
-      return append_bytes(bytes, static_cast<std::int32_t>(value));
+      return append_bytes(bytes, saturated<std::int32_t>(value));
     case NumberType::uint32:
-      return append_bytes(bytes, static_cast<std::uint32_t>(value));
+      return append_bytes(bytes, saturated<std::uint32_t>(value));
   }
 }
 

@@ -90,9 +90,6 @@ bool is_index_type(int type) { return type == uint8 || type == uint16 || type ==
 
 constexpr std::array<char, 16 * 8> zeros{};  // the largest tuple
 
-// Zeros cost nothing in a file but memory here: no mesh means so many of them.
-constexpr std::size_t most_zeros = std::size_t{1} << 24;
-
 }  // namespace
 
 bool has_plain_data(const GltfDocument& document, std::size_t accessor) {
@@ -114,7 +111,7 @@ GltfAccessor::GltfAccessor(GltfDocument& document, std::size_t accessor)
     lay_out(bytes.substr(offset), document.index(view_json, "byteStride").value_or(size_), "");
   } else if (!sparse && count_ > 0) {
     document.fail(label_ + " has no data");
-  } else if (count_ > most_zeros) {
+  } else if (count_ > document.most_values()) {  // zeros cost nothing in a file but memory here
     document.fail(label_ + " promises " + std::to_string(count_) + " values without data");
   }
   if (sparse) read_sparse(*sparse);

@@ -9,6 +9,7 @@
 
 #include "io/file_bytes.h"
 #include "io/gltf_meshoptimizer.h"
+#include "io/text_scanner.h"
 #include "pelage/error.h"
 
 namespace pelage {
@@ -87,7 +88,7 @@ std::string from_percent_encoding(std::string_view uri) {
   return text;
 }
 
-GltfDocument::GltfDocument(std::string_view bytes, std::string path) : path_(std::move(path)) {
+GltfDocument::GltfDocument(std::string_view bytes, std::string path) : path_(std::move(path)), size_(bytes.size()) {
   if (bytes.starts_with("glTF"))
     open_binary(bytes);
   else
@@ -242,15 +243,21 @@ std::string GltfDocument::load(const std::string& uri, const std::string& label)
     return *std::move(bytes);
   }
   if (uri.find("://") != std::string::npos) fail(label + " is at " + uri + "; only files beside this one can be read");
-  const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
-  return read_file((folder / from_percent_encoding(uri)).string());
+  const std::filesystem::path file = std::filesystem::path(path_).parent_path() / from_percent_encoding(uri);
+  std::error_code code;  // a device or a pipe may never end
+  if (std::filesystem::exists(file, code) && !std::filesystem::is_regular_file(file, code))
+    fail(label + " is at " + in_quotes(uri) + ", which is no file");
+  return read_file(file.string());
 }
 
 std::string_view GltfDocument::buffer(std::size_t i) {
   const GltfJson& json = get("buffers", i);
   const std::string label = "buffer " + std::to_string(i), uri = text(json, "uri");
   if (!has_data(i)) fail(label + " has no data");
-  if (!uri.empty() && !buffers_.contains(i)) buffers_[i] = load(uri, label);
+  if (!uri.empty() && !buffers_.contains(i)) {
+    buffers_[i] = load(uri, label);
+    size_ += buffers_[i].size();
+  }
   const std::string_view bytes = uri.empty() ? *chunk_ : std::string_view(buffers_[i]);
   const std::size_t length = index(json, "byteLength").value_or(bytes.size());
   if (length > bytes.size())
@@ -263,6 +270,15 @@ std::string_view GltfDocument::range(std::size_t i, std::size_t offset, std::siz
   const std::string_view bytes = buffer(i);
   if (offset > bytes.size() || length > bytes.size() - offset) fail(whose + " lies beyond its buffer");
   return bytes.substr(offset, length);
+}
+
+std::string GltfDocument::image(std::size_t i) {
+  const GltfJson& json = get("images", i);
+  const std::string uri = text(json, "uri"), label = "image " + std::to_string(i);
+  if (!uri.empty()) return load(uri, label);
+  const auto bytes = index(json, "bufferView");
+  if (!bytes) fail(label + " has no data");
+  return std::string(view(*bytes));
 }
 
 std::string_view GltfDocument::view(std::size_t i) {

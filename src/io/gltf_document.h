@@ -43,10 +43,16 @@ class GltfDocument {
   std::vector<std::size_t> indices(const GltfJson& object, const char* key) const;
   std::vector<std::string> texts(const GltfJson& object, const char* key) const;
 
+  /// More values than this are no more than promises: zeros that no buffer holds, and copies of copies. Grows with
+  /// every buffer that is read.
+  std::size_t most_values() const { return few_values + values_per_byte * size_; }
+
   /// The bytes of a buffer view, decompressed.
   std::string_view view(std::size_t i);
   /// A range of a buffer; `whose` begins the message when it lies beyond.
   std::string_view range(std::size_t buffer, std::size_t offset, std::size_t length, const std::string& whose);
+  /// The bytes of an image, wherever they are.
+  std::string image(std::size_t i);
 
  private:
   void open_binary(std::string_view bytes);
@@ -56,8 +62,11 @@ class GltfDocument {
   std::string_view buffer(std::size_t i);
   std::string load(const std::string& uri, const std::string& label) const;
 
+  static constexpr std::size_t few_values = std::size_t{1} << 18, values_per_byte = 64;
+
   std::string path_;
   GltfJson root_;
+  std::size_t size_ = 0;                         // of all that was read, bytes
   std::optional<std::string_view> chunk_;        // the binary part of a .glb
   std::map<std::size_t, std::string> buffers_;   // those that were loaded
   std::map<std::size_t, std::string> unpacked_;  // buffer views that were compressed

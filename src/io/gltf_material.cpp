@@ -30,13 +30,18 @@ UvSource uv_source(const GltfDocument& document, const GltfJson& texture) {
   return source;
 }
 
-/// The file of a texture's image, "?" if it lies inside the glTF.
-std::string image_of(const GltfDocument& document, const GltfJson& texture) {
+/// The number of a texture's image.
+std::optional<std::size_t> image_of(const GltfDocument& document, const GltfJson& texture) {
   const GltfJson& json = document.get("textures", document.index(texture, "index").value_or(0));
   auto image = document.index(json, "source");
   for (const char* extension : {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds"})
     if (const GltfJson* other = document.extension(json, extension); other && !image)
       image = document.index(*other, "source");
+  return image;
+}
+
+/// The file of an image, "?" if it lies inside the glTF.
+std::string file_of(const GltfDocument& document, std::optional<std::size_t> image) {
   if (!image) return "?";
   const std::string uri = document.text(document.get("images", *image), "uri");
   return uri.empty() || uri.starts_with("data:") ? "?" : from_percent_encoding(uri);
@@ -54,7 +59,10 @@ GltfMaterial read_material(const GltfDocument& document, std::size_t material) {
   std::copy(color.begin(), color.end(), result.base_color.begin());
 
   const GltfJson* base_texture = document.find(base, glossy ? "diffuseTexture" : "baseColorTexture");
-  if (base_texture) result.image = image_of(document, *base_texture);
+  if (base_texture) {
+    result.image_number = image_of(document, *base_texture);
+    result.image = file_of(document, result.image_number);
+  }
   std::vector<UvSource> sources;
   const std::pair<const GltfJson*, const char*> places[] = {{&base, glossy ? "diffuseTexture" : "baseColorTexture"},
                                                             {pbr, "metallicRoughnessTexture"},

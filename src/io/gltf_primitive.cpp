@@ -31,7 +31,8 @@ GltfPrimitive::GltfPrimitive(GltfDocument& document, const GltfJson& json, std::
 std::map<std::string, std::size_t> GltfPrimitive::names_of(const GltfJson& object) const {
   std::map<std::string, std::size_t> names;
   if (object.is_object())
-    for (const auto& [name, value] : object.items()) names[name] = *document_.index(object, name.c_str());
+    for (const auto& [name, value] : object.items())
+      if (const auto accessor = document_.index(object, name.c_str())) names[name] = *accessor;
   return names;
 }
 

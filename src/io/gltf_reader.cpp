@@ -56,6 +56,7 @@ class FaceLabels {
     labels_.push_back(same == 1 ? name : name + "." + std::to_string(same));
     return labels_.size() - 1;
   }
+  std::size_t count() const { return labels_.size(); }
   void add_faces(std::size_t count, std::size_t label) {
     values_.resize(values_.size() + count, static_cast<double>(label));
   }
@@ -119,6 +120,7 @@ class GltfReader {
     shape_.mesh.attributes = attributes_.take();
     drop_incomplete_normals();
     fill_colors();
+    if (object_.count() != 1) shape_.name.clear();
     object_.move_to(shape_.mesh.attributes, "object");
     material_.move_to(shape_.mesh.attributes, "material");
     report();
@@ -177,6 +179,7 @@ class GltfReader {
     if (weights.empty()) weights = document_.numbers(mesh, "weights", 0);
     const GltfJson* primitives = document_.find(mesh, "primitives");
     if (!primitives || !primitives->is_array()) fail(document_.label("meshes", m) + " has no primitives");
+    shape_.name = placement.name.empty() ? document_.text(mesh, "name") : placement.name;
     std::vector<std::size_t> objects;
     for (std::size_t copy = 0; copy < placement.matrices.size(); ++copy)
       objects.push_back(object_.add(placement.name.empty() ? document_.label("meshes", m) : placement.name));
@@ -192,14 +195,13 @@ class GltfReader {
 
   void add_primitive(const GltfPrimitive& primitive, const Placement& placement,
                      const std::vector<std::size_t>& objects, const std::vector<double>& weights) {
-    const std::size_t n = primitive.vertices();
-    constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
-    if (shape_.mesh.points.size() + n * placement.matrices.size() > most) fail("has more than 2147483647 vertices");
+    require_room(primitive.vertices(), shape_.mesh.points.size(), placement.matrices.size(), "vertices");
     const std::vector<Point> points = morphed_points(primitive, weights);
     const std::vector<Values> values = values_of(primitive, weights);
     if (!placement.skin) note_joints(primitive);
     std::size_t left_over = 0;
     const std::vector<std::uint32_t> corners = primitive.triangles(left_over);
+    require_room(corners.size(), shape_.mesh.corners.size(), placement.matrices.size(), "corners");
     left_over_ += left_over;
     const bool skinned = placement.skin && has_weights(primitive);
     for (std::size_t copy = 0; copy < objects.size(); ++copy) {
@@ -213,6 +215,14 @@ class GltfReader {
       for (const Values& v : values) attributes_.append(v.name, v.components, v.type, first, placed(v, matrices));
       note_color(primitive, first);
     }
+  }
+
+  /// Room for `more` in every copy beside those that are there.
+  void require_room(std::size_t more, std::size_t there, std::size_t copies, const char* what) const {
+    const std::size_t most = std::min<std::size_t>(document_.most_values(), std::numeric_limits<std::int32_t>::max());
+    if (more > 0 && copies > (most - there) / more)
+      fail("has more than " + std::to_string(most) + " " + what + ", too many for its size; it is damaged, or shows " +
+           "the same meshes too often");
   }
 
   /// By one matrix for all, or one for each. Returns whether the surface is turned inside out.
@@ -448,6 +458,7 @@ class GltfReader {
     auto color = std::find_if(all.begin(), all.end(), [](const Attribute& a) { return a.name == "color"; });
     const auto is_tinted = [](const Uncolored& part) { return part.color != white; };
     if (std::none_of(uncolored_.begin(), uncolored_.end(), is_tinted)) return;
+    if (color != all.end() && !is_color(*color)) return;  // a "_color" of another form
     if (color == all.end()) {
       const bool opaque =
           std::all_of(uncolored_.begin(), uncolored_.end(), [](const auto& p) { return p.color[3] == 1; });
@@ -500,7 +511,8 @@ class GltfReader {
     note("textures", images_.size(),
          counted(images_.size(), "base colour texture") +
              (images_.contains("?") ? " inside the file" : " (" + files.text() + ")") +
-             " left out; formulas read an image with --texture NAME=FILE");
+             " left out; formulas read an image with --texture NAME=FILE" +
+             (images_.contains("?") ? ", which may be this file" : ""));
     note("several-uv", other_uv_ ? 1 : 0,
          "textures of one material with different uv or transforms; uv is that of the base colour");
   }

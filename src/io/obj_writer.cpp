@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/checked.h"
 #include "base/srgb.h"
 #include "io/bytes.h"
 
@@ -118,9 +119,9 @@ class Statements {
   };
 
   static std::string label(const Attribute& a, double value) {
-    const auto i = static_cast<std::size_t>(value);
+    const auto i = saturated<std::size_t>(value);
     if (i < a.labels.size()) return a.labels[i];
-    return a.name == "smoothing" && value == 0 ? "off" : std::to_string(static_cast<long>(value));
+    return a.name == "smoothing" && value == 0 ? "off" : std::to_string(saturated<long>(value));
   }
 
   std::vector<Statement> list_;
@@ -131,7 +132,7 @@ class Statements {
 std::string encode_obj(const PolygonMesh& mesh) {
   // A colour belongs to v, so that one per corner or face has no place in this format.
   const Attribute* color = mesh.find("color");
-  if (color && color->domain != Domain::vertex) color = nullptr;
+  if (color && !(color->domain == Domain::vertex && is_color(*color))) color = nullptr;
   const IndexedValues uv = index_values(mesh, "uv"), normal = index_values(mesh, "normal");
   std::string text = "# written by pelage\n";
   for (const FileLink& link : mesh.links)

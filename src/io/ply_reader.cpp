@@ -450,9 +450,16 @@ class PlyReader {
     for (const std::string& comment : header_.comments) {
       TextScanner text(comment, path_);
       const std::string_view keyword = text.word();
-      if (keyword == "TextureFile") shape_.mesh.links.push_back({"TextureFile", std::string(text.rest_of_line())});
+      if (keyword == "TextureFile") add_image(std::string(text.rest_of_line()));
       if (keyword == "label") read_label(text);
     }
+  }
+
+  void add_image(std::string file) {
+    shape_.findings.push_back({"image-not-read",
+                               "the file has the image " + in_quotes(file) + "; name it with --texture to read it", 1,
+                               0, false});
+    shape_.mesh.links.push_back({"TextureFile", std::move(file)});
   }
 
   void read_label(TextScanner& text) {

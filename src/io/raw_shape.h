@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "pelage/up_axis.h"
@@ -19,6 +20,7 @@ struct RawShape {
   std::vector<int> face_lines;    ///< per face: likewise
   std::vector<Finding> findings;
   UpAxis up = UpAxis::y;  ///< as the file says
+  std::string name;       ///< of the only object, or empty
   std::optional<double> metres_per_unit = {};
 };
 

@@ -118,12 +118,19 @@ std::vector<std::int32_t> vertices_of_corners(const TriangleMesh& mesh, std::siz
   return vertex;
 }
 
+/// The name of the only object of the file, where it has one.
+std::string only_name(const RawShape& raw) {
+  const Attribute* object = raw.mesh.find("object");
+  return object && object->labels.size() == 1 ? object->labels[0] : raw.name;
+}
+
 bool is_normal(const Attribute& a) { return a.name == "normal" && a.components == 3; }
 
 ShapeFile mended(RawShape raw, const std::string& path) {
   ShapeFile file;
   file.findings = std::move(raw.findings);
   file.up = raw.up;
+  file.name = only_name(raw);
   raw.mesh.metres_per_unit = raw.metres_per_unit;
   clear_non_finite_attributes(raw.mesh.attributes, file.findings);
   auto source = std::make_shared<SourceShape>(SourceShape{raw.mesh, {}});
@@ -156,7 +163,7 @@ ShapeFile read_shape_bytes(std::string_view bytes, const std::string& name) {
 }
 
 ShapeFile read_shape(const std::string& path) {
-  if (is_builtin_shape(path)) return {builtin_shape(path), {}, UpAxis::y, nullptr};
+  if (is_builtin_shape(path)) return {builtin_shape(path), {}, UpAxis::y, {}, nullptr};
   const Format& format = format_of(path);
   RawShape raw;
   {

@@ -1,5 +1,6 @@
 #include "io/stl_writer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -71,6 +72,17 @@ std::string solids(const TriangleMesh& mesh, const Attribute& object) {
 
 }  // namespace
 
+namespace {
+
+/// Whether every face has one of the names: a face without would be in no solid.
+bool all_labelled(const Attribute& a) {
+  return a.components == 1 && std::all_of(a.values.begin(), a.values.end(), [&](double value) {
+           return value >= 0 && value < static_cast<double>(a.labels.size()) && value == std::floor(value);
+         });
+}
+
+}  // namespace
+
 const Attribute* stl_color(const std::vector<Attribute>& attributes) {
   for (const Attribute& a : attributes)
     if (a.domain == Domain::face && (a.name == "color" || a.name == "face_color") && is_color(a)) return &a;
@@ -79,7 +91,7 @@ const Attribute* stl_color(const std::vector<Attribute>& attributes) {
 
 const Attribute* stl_object(const std::vector<Attribute>& attributes) {
   for (const Attribute& a : attributes)
-    if (a.domain == Domain::face && a.name == "object" && !a.labels.empty()) return &a;
+    if (a.domain == Domain::face && a.name == "object" && all_labelled(a)) return &a;
   return nullptr;
 }
 

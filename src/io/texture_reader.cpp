@@ -11,10 +11,13 @@
 #include <stb_image.h>
 #pragma GCC diagnostic pop
 
+#include <filesystem>
 #include <limits>
 #include <string_view>
 
+#include "base/ascii.h"
 #include "io/file_bytes.h"
+#include "io/gltf_image.h"
 #include "pelage/error.h"
 
 namespace pelage {
@@ -52,19 +55,77 @@ bool overflows_tables(std::string_view bytes) {
   return false;
 }
 
+constexpr std::string_view png_magic = "\x89PNG";
+
+/// Whether a part of a PNG image claims more bytes than the file has: stb_image reserves what it claims. Or the picture
+/// begins with a part without bytes, for which it reserves none.
+bool has_wrong_parts(std::string_view bytes) {
+  constexpr std::size_t magic = 8, head = 8, check_sum = 4;  // length and name stand before a part
+  if (!bytes.starts_with(png_magic)) return false;
+  const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(bytes[i])); };
+  bool begun = false;
+  for (std::size_t at = magic; at + head <= bytes.size();) {
+    const std::size_t length = byte(at) << 24 | byte(at + 1) << 16 | byte(at + 2) << 8 | byte(at + 3);
+    const std::string_view name = bytes.substr(at + 4, 4);
+    if (length + check_sum > bytes.size() - at - head || (name == "IDAT" && length == 0 && !begun)) return true;
+    if (name == "IEND") return false;
+    begun = begun || name == "IDAT";
+    at += head + length + check_sum;
+  }
+  return false;
+}
+
+/// Bits that a pixel takes before it is packed, at least: in PNG as the header says (its 25th byte is the depth, the
+/// next the kind of colour), in JPEG one for the brightness of every eight by eight pixels.
+double least_bits_per_pixel(std::string_view bytes) {
+  constexpr std::size_t depth_at = 24;
+  if (!bytes.starts_with(png_magic) || bytes.size() <= depth_at + 1) return 1.0 / 64;
+  const int depth = static_cast<unsigned char>(bytes[depth_at]);
+  switch (bytes[depth_at + 1]) {
+    case 2:  // red, green, blue
+      return 3 * depth;
+    case 4:  // grey and alpha
+      return 2 * depth;
+    case 6:
+      return 4 * depth;
+    default:
+      return depth;
+  }
+}
+
+/// Whether the file is long enough for its pixels: PNG is packed by deflate, which makes of a byte no more than 1032.
+bool can_hold(std::string_view bytes, std::int64_t pixels) {
+  constexpr double most_packed = 1032;
+  const double packed = bytes.starts_with(png_magic) ? most_packed : 1;
+  return static_cast<double>(pixels) * least_bits_per_pixel(bytes) <= 8 * packed * static_cast<double>(bytes.size());
+}
+
+/// Of a glTF file its image.
+std::string image_bytes(const std::string& path) {
+  std::string bytes = read_file(path), extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = to_lower(c);
+  return extension == ".glb" || extension == ".gltf" ? gltf_base_image(bytes, path) : bytes;
+}
+
 /// The bytes of an image whose header makes sense.
 EncodedImage open_image(const std::string& path) {
-  EncodedImage image{read_file(path)};
+  EncodedImage image{image_bytes(path)};
   if (image.bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
     throw Error(Fault::input, "is larger than 2 GiB; an image of that size is of no use here", {path});
   if (overflows_tables(image.bytes))
     throw Error(Fault::input, "is a damaged JPEG image; write it again, or as PNG", {path});
+  if (has_wrong_parts(image.bytes)) throw Error(Fault::input, "is a PNG image that is cut short or damaged", {path});
   int width = 0, height = 0, channels = 0;
   if (!stbi_info_from_memory(image.data(), image.size(), &width, &height, &channels)) fail(path);
   if (std::int64_t{width} * height > most_pixels)
     throw Error(Fault::input,
                 "the image has " + std::to_string(width) + " x " + std::to_string(height) + " pixels; at most " +
                     std::to_string(most_pixels) + " can be read, make it smaller",
+                {path});
+  if (!can_hold(image.bytes, std::int64_t{width} * height))
+    throw Error(Fault::input,
+                "is cut short or damaged: " + std::to_string(image.size()) + " bytes cannot hold its " +
+                    std::to_string(width) + " x " + std::to_string(height) + " pixels",
                 {path});
   return image;
 }

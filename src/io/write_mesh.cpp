@@ -49,7 +49,8 @@ Keeping as_bytes(const Attribute& color) {
 Keeping ply_keeps(const Attribute& a) { return is_color(a) ? as_bytes(a) : Keeping::kept; }
 
 Keeping obj_keeps(const Attribute& a) {
-  if (a.name == "color" && a.domain == Domain::vertex) return a.components == 4 ? Keeping::opaque : Keeping::kept;
+  if (a.name == "color" && a.domain == Domain::vertex && is_color(a))
+    return a.components == 4 ? Keeping::opaque : Keeping::kept;
   if (is_named(a, {"uv", "normal"})) return a.domain != Domain::face ? Keeping::kept : Keeping::lost;
   const bool statement = is_named(a, {"object", "group", "material", "smoothing", "material_color"});
   return statement && a.domain == Domain::face ? Keeping::kept : Keeping::lost;
@@ -58,18 +59,18 @@ Keeping obj_keeps(const Attribute& a) {
 Keeping off_keeps(const Attribute& a) {
   const bool here =
       (a.name == "color" && a.domain != Domain::corner) || (a.name == "face_color" && a.domain == Domain::face);
-  return here ? as_bytes(a) : Keeping::lost;
+  return here && is_color(a) ? as_bytes(a) : Keeping::lost;
 }
 
 Keeping stl_keeps(const Attribute& a) {
   if (a.domain != Domain::face) return Keeping::lost;
-  if (is_named(a, {"color", "face_color"}))
+  if (is_named(a, {"color", "face_color"}) && is_color(a))
     return a.components == 4 ? Keeping::opaque : any_value(a, no_five_bits) ? Keeping::rounded : Keeping::kept;
   return a.name == "object" ? Keeping::kept : Keeping::lost;
 }
 
 Keeping glb_keeps(const Attribute& a) {
-  if (a.name == "color") return Keeping::kept;
+  if (a.name == "color" && is_color(a)) return Keeping::kept;
   if (a.domain == Domain::face) return is_named(a, {"object", "material"}) ? Keeping::kept : Keeping::lost;
   if (is_named(a, {"normal", "uv"})) return Keeping::kept;  // 32 bits are enough for these
   return a.type != NumberType::float32 && any_value(a, no_float) ? Keeping::rounded : Keeping::kept;

@@ -212,7 +212,7 @@ Length parse_length(const std::string& text, const Location& where) {
 
 Recipe parse_recipe(const std::string& text, const std::string& file) {
   const Value document = parse_document(text, file);
-  if (document.find("species") && !document.find("stage"))
+  if (!document.find("stage") && document.find("species"))
     throw Error(Fault::usage, "this is a model, not a recipe; give it as --model", {file});
   Recipe recipe;
   recipe.name = document.string_or("name", file);

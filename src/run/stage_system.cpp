@@ -110,7 +110,8 @@ struct FluxLoads {
 
   std::vector<std::vector<double>> coefficients(const std::vector<Vector>& u, double t) const {
     std::vector<Vector> fields;
-    for (const Vector& field : u) fields.push_back(values * field);
+    for (const Vector& field : u)  // those of species that follow may be missing: no coefficient reads them
+      fields.push_back(field.size() > 0 ? values * field : Vector(Vector::Zero(values.rows())));
     std::vector<std::vector<double>> c(fluxes.size(), std::vector<double>(kinetics->size()));
     std::vector<double*> out;
     for (std::vector<double>& list : c) out.push_back(list.data());

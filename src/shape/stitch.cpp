@@ -264,16 +264,28 @@ void keep_seams(TriangleMesh& mesh, const Renumbering& renumbering) {
   }
 }
 
+/// Corners that get another vertex than they had, where no vertex comes or goes.
+std::size_t moved_corners(const TriangleMesh& mesh, const Renumbering& renumbering) {
+  std::size_t moved = 0;
+  for (HalfEdge c = 0; c < static_cast<HalfEdge>(renumbering.corner.size()); ++c)
+    if (renumbering.source[renumbering.corner[c]] != tail(mesh.triangles, c)) ++moved;
+  return moved;
+}
+
 }  // namespace
 
 void renumber_by_fans(NumberedMesh& work, const EdgePairs& pairs, std::vector<Finding>& findings) {
   Renumbering renumbering = number_fans(work, fans(work.mesh, pairs.opposite));
   if (pairs.crowded) check_separation(work, renumbering);
   Finding &seams = renumbering.seams, &touching = renumbering.touching;
-  if (seams.count == 0 && touching.count == 0) return;
+  const std::size_t moved = moved_corners(work.mesh, renumbering);
+  if (moved == 0 && seams.count == 0 && touching.count == 0) return;
   keep_seams(work.mesh, renumbering);
   gather_vertices(work, renumbering.source);
   for (std::size_t c = 0; c < renumbering.corner.size(); ++c) work.mesh.triangles[c / 3][c % 3] = renumbering.corner[c];
+  if (seams.count == 0 && touching.count == 0)
+    findings.push_back(
+        {"seams", counted(moved, "corner") + " of faces joined to other vertices in the same place", moved, 0, true});
   if (seams.count > 0) {
     seams.text = counted(seams.count, "vertex") + " in the place of others along open edges (first: vertex " +
                  std::to_string(seams.element) + "); merged";

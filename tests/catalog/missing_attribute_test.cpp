@@ -9,7 +9,7 @@ namespace pelage {
 namespace {
 
 TriangleMesh sphere_with(const std::vector<std::pair<std::string, int>>& attributes) {
-  TriangleMesh mesh = builtin_shape("builtin:sphere?n=42");
+  TriangleMesh mesh = builtin_shape("builtin:sphere?n=162");
   for (const auto& [name, components] : attributes)
     mesh.attributes.push_back({name, components, Domain::vertex,
                                std::vector<double>(mesh.points.size() * static_cast<std::size_t>(components), 0.5)});

@@ -10,6 +10,7 @@
 #include "fair/compare.h"
 #include "fair/noisy.h"
 #include "pelage/io.h"
+#include "support/reordered.h"
 
 namespace pelage {
 namespace {
@@ -47,6 +48,25 @@ std::pair<double, double> crookedness(const TriangleMesh& mesh, const TriangleMe
     ++count;
   }
   return {std::sqrt(sum / count), worst};
+}
+
+/// Coordinates of millions leave the result as exact as they are themselves.
+TEST(Fair, DoesNotDependOnThePlace) {
+  const Point utm = {431250, 5412875, 310};
+  TriangleMesh noisy = with_noise(builtin_shape("builtin:sphere?n=642"), 0.2);
+  for (Point& p : noisy.points)
+    for (double& x : p) x = std::round(x * 0x1p20) / 0x1p20;  // so that moving it rounds nothing
+  const TriangleMesh moved = testing::placed(noisy, 1, utm);
+  for (const std::string& method : fair_methods()) {
+    SCOPED_TRACE(method);
+    const TriangleMesh here = fair(noisy, {.method = method, .steps = 3}).mesh;
+    const TriangleMesh there = fair(moved, {.method = method, .steps = 3}).mesh;
+    double most = 0;
+    for (std::size_t v = 0; v < here.points.size(); ++v)
+      for (std::size_t k = 0; k < 3; ++k)
+        most = std::max(most, std::abs(there.points[v][k] - utm[k] - here.points[v][k]));
+    EXPECT_LT(most, 1e-7);
+  }
 }
 
 TEST(Fair, EdgesOfACubeAreStraight) {

@@ -535,6 +535,21 @@ TEST(GltfParts, NodesThatTouchStayParts) {
   }
 }
 
+TEST(GltfParts, TheOnlyObjectNamesTheShape) {
+  GlbBuilder file;
+  file.array("VEC3", triangle);
+  const auto name = [&](const std::string& nodes, const std::string& mesh) {
+    const std::string meshes = R"("meshes":[{)" + mesh + R"("primitives":[{"attributes":{"POSITION":0}}]}])";
+    return read_shape_bytes(file.file(R"("nodes":[)" + nodes + "]," + meshes), "a.glb").name;
+  };
+  EXPECT_EQ(name(R"({"mesh":0,"name":"Beast"})", R"("name":"Skin",)"), "Beast");
+  EXPECT_EQ(name(R"({"mesh":0})", R"("name":"Skin",)"), "Skin");
+  EXPECT_EQ(name(R"({"mesh":0})", ""), "");
+  EXPECT_EQ(name(R"({"mesh":0,"name":"a"},{"mesh":0,"name":"b","translation":[0,0,1]})", ""), "");
+  EXPECT_EQ(read_shape_bytes("o Beast\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj").name, "Beast");
+  EXPECT_EQ(read_shape_bytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj").name, "");
+}
+
 TEST(GltfParts, MaterialsAreLabelsOfFaces) {
   GlbBuilder file;
   file.array("VEC3", triangle);

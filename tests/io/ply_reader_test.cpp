@@ -145,8 +145,9 @@ TEST(PlyReader, FacesAndCornersHaveAttributesToo) {
   EXPECT_EQ(find(shape, "weight")->domain, Domain::corner);
   EXPECT_EQ(find(shape, "weight")->values, (std::vector<double>{1, 2, 3, 4, 5, 6, 7}));
   EXPECT_EQ(shape.mesh.links.at(0).file, "my skin.png");
-  ASSERT_EQ(shape.findings.size(), 1u);
+  ASSERT_EQ(shape.findings.size(), 2u);
   EXPECT_NE(shape.findings[0].text.find("\"odd\""), std::string::npos);
+  EXPECT_NE(shape.findings[1].text.find("image \"my skin.png\""), std::string::npos);
 }
 
 /// A header that ends its lines with \\r alone, before data that begin with \\n.

@@ -130,7 +130,7 @@ TEST_F(ReadShape, MillimetresThroughGlb) {
 
 TEST_F(ReadShape, FilesThatAreNone) {
   test::expect_input_error([&] { read_shape(folder_ + "absent.obj"); }, "absent.obj: cannot be opened");
-  test::expect_input_error([&] { read_shape(folder_); }, "known are");
+  test::expect_input_error([&] { read_shape(folder_); }, "is a directory");
   std::filesystem::create_directories(folder_ + "dir.obj");
   test::expect_input_error([&] { read_shape(folder_ + "dir.obj"); }, "is a directory");
   test::expect_input_error([&] { read_shape("a.fbx"); }, "a.fbx: cannot read files of the kind \".fbx\"");

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "base/srgb.h"
+#include "io/glb_builder.h"
 #include "io/written_meshes.h"
 #include "pelage/error.h"
 #include "pelage/io.h"
@@ -52,6 +53,35 @@ std::string picture() {
   const std::string path = (test::fresh_folder() / "a.png").string();
   write_png(image, path);
   return path;
+}
+
+/// A glTF file whose materials have so many images, all of these bytes and inside of it.
+std::string gltf_with(const std::string& image, int count) {
+  test::GlbBuilder file;
+  file.array("VEC3", std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const std::string view = std::to_string(file.view(image));
+  std::string images, textures, materials;
+  for (int i = 0; i < count; ++i) {
+    const std::string comma = i ? "," : "", number = std::to_string(i);
+    images += comma + R"({"mimeType":"image/png","bufferView":)" + view + "}";
+    textures += comma + R"({"source":)" + number + "}";
+    materials += comma + R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":)" + number + "}}}";
+  }
+  const std::string members =
+      count ? R"(,"images":[)" + images + R"(],"textures":[)" + textures + R"(],"materials":[)" + materials + "]" : "";
+  return file_of(
+      file.file(R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}])" + members),
+      "a.glb");
+}
+
+TEST(TextureReader, TakesTheBaseColourOfAGltfFile) {
+  const std::string path = picture();
+  const Texture texture = read_texture(path), inside = read_texture(gltf_with(bytes_of(path), 1));
+  EXPECT_EQ(inside.width, 7);
+  EXPECT_EQ(*inside.rgb, *texture.rgb);
+  EXPECT_NE(error_of(gltf_with(bytes_of(path), 0)).find("has no image of a base colour"), std::string::npos);
+  EXPECT_NE(error_of(gltf_with(bytes_of(path), 2)).find("has 2 images of base colours"), std::string::npos);
+  EXPECT_NE(error_of(gltf_with("nonsense", 1)).find("is no PNG or JPEG image"), std::string::npos);
 }
 
 TEST(TextureReader, ReadsStoredValuesTopRowFirst) {
@@ -103,6 +133,26 @@ TEST(TextureReader, RefusesWhatEndsEarly) {
     EXPECT_NE(error_of(file_of(whole.substr(0, size))), "") << size;
 }
 
+TEST(TextureReader, RefusesPartsThatReachBeyondTheFile) {
+  std::string bytes = bytes_of(picture());
+  bytes[bytes.find("IDAT") - 4] = '\x40';  // the highest byte of its length: a gigabyte
+  EXPECT_NE(error_of(file_of(bytes), check_texture).find("cut short"), std::string::npos);
+}
+
+TEST(TextureReader, EverythingThatPacksWellIsRead) {
+  const int side = 1500;
+  for (const int channels : {1, 3, 4}) {
+    const std::vector<std::uint8_t> pixels(static_cast<std::size_t>(channels) * side * side, 200);
+    const std::string path = (test::fresh_folder() / "even.png").string();
+    ASSERT_TRUE(stbi_write_png(path.c_str(), side, side, channels, pixels.data(), channels * side));
+    EXPECT_EQ(read_texture(path).width, side);
+  }
+  const std::vector<std::uint8_t> pixels(static_cast<std::size_t>(side) * side, 200);
+  const std::string path = (test::fresh_folder() / "even.jpg").string();
+  ASSERT_TRUE(stbi_write_jpg(path.c_str(), side, side, 1, pixels.data(), 5));
+  EXPECT_EQ(read_texture(path).width, side);
+}
+
 TEST(TextureReader, RefusesWhatIsNoImage) {
   EXPECT_NE(error_of("no-such-image.png").find("cannot be opened"), std::string::npos);
   EXPECT_NE(error_of(file_of("GIF89a\1\0\1\0\0\0\0;"s)).find("no PNG or JPEG image"), std::string::npos);
@@ -112,6 +162,8 @@ TEST(TextureReader, RefusesWhatIsNoImage) {
 TEST(TextureReader, TheHeaderAloneReservesNoMemory) {
   const auto read = [](const std::string& path) { read_texture(path); };
   std::string bytes = bytes_of(picture());
+  bytes.replace(16, 8, "\0\0\x40\0\0\0\x40\0"s);
+  EXPECT_NE(error_of(file_of(bytes), check_texture).find("cannot hold its 16384 x 16384 pixels"), std::string::npos);
   bytes.replace(16, 8, "\0\0\x42\x68\0\0\x42\x68"s);
   EXPECT_NE(error_of(file_of(bytes), read).find("17000 x 17000 pixels"), std::string::npos);
   EXPECT_NE(error_of(file_of(bytes), check_texture).find("17000 x 17000 pixels"), std::string::npos);

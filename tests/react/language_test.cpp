@@ -20,14 +20,18 @@ Scope scope_of_examples(Graph& graph) {
   for (const char* name : {"a", "b", "x", "edge", "edge0", "lower", "mean", "length", "condition"})
     scope.names[name] = graph.constant(1);
   for (const char* name : {"edge1", "upper", "deviation", "seed"}) scope.names[name] = graph.constant(2);
-  scope.names["u"] = graph.symbol({Symbol::Kind::species});
+  scope.names["c"] = graph.constant(1);
+  scope.names["u"] = graph.symbol({Symbol::Kind::species, 0});
+  scope.names["v"] = graph.symbol({Symbol::Kind::species, 1});
   return scope;
 }
 
 TEST(Language, EveryUsageIsAFormula) {
   for (const Word& word : words()) {
     Graph graph;
-    EXPECT_NO_THROW(parse_formula(graph, {word.usage, {}}, scope_of_examples(graph), "test")) << word.usage;
+    // A gradient stands in others only.
+    const std::string usage = word.usage == "grad u" ? "dot(grad u, grad u)" : word.usage;
+    EXPECT_NO_THROW(parse_formula(graph, {usage, {}}, scope_of_examples(graph), "test")) << word.usage;
     EXPECT_FALSE(word.meaning.empty()) << word.usage;
     EXPECT_EQ(word.meaning.find('|'), std::string::npos) << "would end a column: " << word.usage;
   }

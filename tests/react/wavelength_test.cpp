@@ -73,7 +73,8 @@ TEST(Wavelength, IsRefusedWhereOtherEquationsHaveNoTheory) {
   EXPECT_EQ(
       refusal_of(compile(measured_model(), {{"ratio", 0.5}, {"D", 2}})),
       "m.toml:1:1: the wavelength of model \"m\" is measured at the values of its file; with D = 2, ratio = 0.5 it is "
-      "unknown, since linear theory has no wave of that length; choose other values, or make "
+      "unknown, since linear theory has no wave of that length; choose other values, give --unit instead of --size, or "
+      "make "
       "`wavelength` in a file of your own a formula of the parameters");
   EXPECT_NE(refusal_of(compile(load_model("schnakenberg"), {{"d", 5}})).find("no standing wave that grows there"),
             std::string::npos);
@@ -174,7 +175,7 @@ TEST(Wavelength, OfEveryModelAtItsOwnValuesIsTheMeasuredOne) {
                                                   {"gray-scott:pulsating", 13.6},
                                                   {"gray-scott:gamma", 14},
                                                   {"gray-scott:delta", 15.2},
-                                                  {"gray-scott:epsilon", 16.7},
+                                                  {"gray-scott:epsilon", 19.5},
                                                   {"gray-scott:zeta", 14},
                                                   {"gray-scott:eta", 13},
                                                   {"gray-scott:theta", 14.2},
@@ -183,7 +184,12 @@ TEST(Wavelength, OfEveryModelAtItsOwnValuesIsTheMeasuredOne) {
                                                   {"gray-scott:mu", 13.7},
                                                   {"gray-scott:nu", 19.3},
                                                   {"gray-scott:pi", 15.2},
+                                                  {"keller-segel", 7.7},
+                                                  {"keller-segel:droplets", 7.9},
                                                   {"klausmeier", 16.1},
+                                                  {"kpz", 9.4},
+                                                  {"kuramoto-sivashinsky", 13.1},
+                                                  {"kuramoto-sivashinsky:cells", 13.1 - 15 * 0.2},
                                                   {"lambda-omega", 20},
                                                   {"meinhardt-stripes", 15.4},
                                                   {"mimura-murray", 0.92},

@@ -57,12 +57,14 @@ INSTANTIATE_TEST_SUITE_P(Steppers, Gradients, testing::Values("rkc2", "sbdf2", "
 TEST_P(Gradients, AreThoseOfKnownFunctions) {
   const std::string known =
       "[species.v]\ndiffusion = 0\nrate = '0'\ninitial = 'x'\n"
-      "[species.w]\ndiffusion = 0\nrate = '0'\ninitial = 'z'\n";
+      "[species.w]\ndiffusion = 0\nrate = '0'\ninitial = 'z'\n"
+      "[species.shown]\nequals = 'sqrt(grad2(w))'\n";
   for (const std::string rate : {"grad2(w) - 1 + z^2", "dot(grad w, grad v) + x*z", "div(w grad w) - 1 + 3*z^2",
                                  "div(z grad w) - 1 + 3*z^2", "-2*div(w grad v) - 6*x*z"}) {
     const Growth run =
         finished(on_unit_sphere("[species.u]\ndiffusion = 0\nrate = '" + rate + "'\n" + known, GetParam(), 0.1, 1));
     EXPECT_LT(deviation(run, [](const Point&) { return 0.0; }), 0.02) << rate;
+    EXPECT_NEAR(run.coefficients()[3].maxCoeff(), 1, 0.05);
   }
 }
 
