@@ -29,7 +29,8 @@ def run(*arguments):
 
 
 def attributes(path):
-    return json.loads(run("check", path, "--json"))["attributes"]
+    """Those that formulas can read: normals are not among them."""
+    return [a for a in json.loads(run("check", path, "--json"))["attributes"] if not a.startswith("normal ")]
 
 
 # --- the figure ------------------------------------------------------------------------------------------------
