@@ -7,6 +7,7 @@
 #include <memory>
 #include <string_view>
 
+#include "base/ascii.h"
 #include "pelage/error.h"
 
 namespace pelage {
@@ -67,6 +68,12 @@ std::string read_file(const std::string& path) {
   if (const char* name = compression_of(bytes))
     fail(path, std::string("is compressed (") + name + "); unpack it first");
   return bytes;
+}
+
+std::string lower_extension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = to_lower(c);
+  return extension;
 }
 
 }  // namespace pelage

@@ -11,4 +11,7 @@ std::string read_file(const std::string& path);
 /// Throws as read_file() does for a path that is no file or cannot be opened.
 void require_file(const std::string& path);
 
+/// ".png" of "a.PNG": how the name ends, in lower case.
+std::string lower_extension(const std::string& path);
+
 }  // namespace pelage

@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "base/ascii.h"
 #include "base/parallel.h"
 #include "base/srgb.h"
 #include "io/atomic_file.h"
+#include "io/file_bytes.h"
 #include "pelage/io.h"
 
 namespace pelage {
@@ -112,9 +111,8 @@ std::string png_bytes(const Image& image) { return encode_png(image, ""); }
 void write_png(const Image& image, const std::string& path) { write_file(path, encode_png(image, path)); }
 
 void check_picture_path(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), to_lower);
-  if (extension != ".png") throw Error(Fault::usage, "pictures are written as PNG; end the name in .png", {path});
+  if (lower_extension(path) != ".png")
+    throw Error(Fault::usage, "pictures are written as PNG; end the name in .png", {path});
   check_folder(path);
 }
 

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <utility>
 
-#include "base/ascii.h"
 #include "io/file_bytes.h"
 #include "io/gltf_reader.h"
 #include "io/obj_reader.h"
@@ -38,8 +37,7 @@ constexpr Format formats[] = {
 const Format& format_of(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw Error(Fault::input, "is a directory, not a file", {path});
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), to_lower);
+  const std::string extension = lower_extension(path);
   std::string known;
   for (const Format& format : formats) {
     if (extension == format.extension) return format;

@@ -11,11 +11,9 @@
 #include <stb_image.h>
 #pragma GCC diagnostic pop
 
-#include <filesystem>
 #include <limits>
 #include <string_view>
 
-#include "base/ascii.h"
 #include "io/file_bytes.h"
 #include "io/gltf_image.h"
 #include "pelage/error.h"
@@ -102,8 +100,8 @@ bool can_hold(std::string_view bytes, std::int64_t pixels) {
 
 /// Of a glTF file its image.
 std::string image_bytes(const std::string& path) {
-  std::string bytes = read_file(path), extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = to_lower(c);
+  std::string bytes = read_file(path);
+  const std::string extension = lower_extension(path);
   return extension == ".glb" || extension == ".gltf" ? gltf_base_image(bytes, path) : bytes;
 }
 

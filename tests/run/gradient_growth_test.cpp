@@ -3,34 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "catalog/bind.h"
 #include "react/stability.h"
 #include "run/run.h"
 #include "shape/generators.h"
+#include "support/sphere_run.h"
 #include "support/steppers.h"
 
 namespace pelage {
 namespace {
 
 using Growth = Run;  // in a test, Run is a function of its own
-
-/// On the unit sphere, whose unit is that of the model.
-Run on_unit_sphere(const std::string& species, const std::string& stepper, double step, double until) {
-  const auto path = std::filesystem::temp_directory_path() / "pelage_gradient_growth_test.toml";
-  std::ofstream(path) << "name = 'test'\ntitle = 't'\ncite = 'c'\nsummary = 's'\nwavelength = 1.3\n" << species << "\n";
-  Recipe recipe;
-  recipe.stages[0].model.value = path.string();
-  recipe.stages[0].method.value = stepper_named(stepper).nodal ? "remeshed" : "loop";
-  recipe.stages[0].stepper.value = stepper;
-  recipe.stages[0].size = Given<Length>{{1.3, false}, {}};
-  recipe.stages[0].step = step;
-  recipe.stages[0].until = until;
-  recipe.stages[0].interpolate = true;
-  return Run(make_program(recipe, builtin_shape("builtin:sphere?n=642")));
-}
 
 Run finished(Run run) {
   run.advance(1000000);
@@ -61,8 +45,8 @@ TEST_P(Gradients, AreThoseOfKnownFunctions) {
       "[species.shown]\nequals = 'sqrt(grad2(w))'\n";
   for (const std::string rate : {"grad2(w) - 1 + z^2", "dot(grad w, grad v) + x*z", "div(w grad w) - 1 + 3*z^2",
                                  "div(z grad w) - 1 + 3*z^2", "-2*div(w grad v) - 6*x*z"}) {
-    const Growth run =
-        finished(on_unit_sphere("[species.u]\ndiffusion = 0\nrate = '" + rate + "'\n" + known, GetParam(), 0.1, 1));
+    const Growth run = finished(
+        test::run_on_unit_sphere("[species.u]\ndiffusion = 0\nrate = '" + rate + "'\n" + known, GetParam(), 0.1, 1));
     EXPECT_LT(deviation(run, [](const Point&) { return 0.0; }), 0.02) << rate;
     EXPECT_NEAR(run.coefficients()[3].maxCoeff(), 1, 0.05);
   }
@@ -71,7 +55,7 @@ TEST_P(Gradients, AreThoseOfKnownFunctions) {
 /// Cole 1951, Hopf 1950: with u = (2 nu / lambda) log w the equation of Kardar, Parisi and Zhang is w_t = nu lap w;
 /// here nu = 1/2, lambda = 3 and w = 1 + 0.6 z exp(-2 nu t).
 TEST_P(Gradients, GrowthAlongTheNormalIsTheHeatFlowOfColeAndHopf) {
-  const Growth run = finished(on_unit_sphere(
+  const Growth run = finished(test::run_on_unit_sphere(
       "[species.u]\ndiffusion = 0.5\nrate = '1.5*grad2(u)'\ninitial = 'log(1 + 0.6*z)/3'\n", GetParam(), 0.005, 0.4));
   const auto exact = [](const Point& p) { return std::log(1 + 0.6 * p[2] * std::exp(-0.4)) / 3; };
   EXPECT_LT(deviation(run, exact), 1e-3);
@@ -81,7 +65,7 @@ TEST_P(Gradients, GrowthAlongTheNormalIsTheHeatFlowOfColeAndHopf) {
 /// Deviations of c and n from 1/2 of the degree 2, k^2 = 6, against exp(A t) of the dispersion relation.
 TEST_P(Gradients, ChemotaxisGrowsAsLinearTheorySays) {
   const double a = 1e-4, t = 0.5;
-  const Growth run = finished(on_unit_sphere(
+  const Growth run = finished(test::run_on_unit_sphere(
       "[species.n]\ndiffusion = 0.05\nrate = '-2*div(n*(1 - n) grad c)'\ninitial = '0.5 + 1e-4*(3*z^2 - 1)'\n"
       "[species.c]\ndiffusion = 1\nrate = 'n - c'\ninitial = '0.5'\n",
       GetParam(), 0.002, t));
@@ -101,8 +85,8 @@ TEST_P(Gradients, ChemotaxisGrowsAsLinearTheorySays) {
 /// c varies in place only as far as the program knows.
 TEST(Fluxes, WithAConstantCoefficientAreTheLaplacian) {
   const std::string v = "[species.v]\ndiffusion = 1\nrate = '-v'\ninitial = 'x*y + z'\n";
-  const Growth run =
-      on_unit_sphere("[species.u]\ndiffusion = 1\nrate = 'div(if(x < 9, 2, 3) grad v)'\n" + v, "sbdf2", 0.1, 1);
+  const Growth run = test::run_on_unit_sphere("[species.u]\ndiffusion = 1\nrate = 'div(if(x < 9, 2, 3) grad v)'\n" + v,
+                                              "sbdf2", 0.1, 1);
   const Vector flux = run.system().fluxes(run.initial(), 0)[0];
   const Vector lap = *run.space().stiffness() * run.initial()[1] * -2;
   EXPECT_LT((flux - lap).cwiseAbs().maxCoeff(), 1e-13 * lap.cwiseAbs().maxCoeff());

@@ -3,33 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "catalog/bind.h"
 #include "run/run.h"
 #include "shape/generators.h"
+#include "support/sphere_run.h"
 #include "support/steppers.h"
 #include "time/stepper.h"
 
 namespace pelage {
 namespace {
 
-/// A run on the unit sphere whose model length unit is the world's, of a species u that starts as z.
+/// Of a species u that starts as z.
 Run on_unit_sphere(const std::string& equation, const std::string& stepper, double step) {
-  const auto path = std::filesystem::temp_directory_path() / "pelage_operators_test.toml";
-  std::ofstream(path) << "name = 'test'\ntitle = 't'\ncite = 'c'\nsummary = 's'\nwavelength = 1.3\n[species.u]\n"
-                      << "initial = 'z'\n"
-                      << equation << "\n";
-  Recipe recipe;
-  recipe.stages[0].model.value = path.string();
-  recipe.stages[0].method.value = stepper_named(stepper).nodal ? "remeshed" : "loop";
-  recipe.stages[0].stepper.value = stepper;
-  recipe.stages[0].size = Given<Length>{{1.3, false}, {}};
-  recipe.stages[0].step = step;
-  recipe.stages[0].until = 1;
-  recipe.stages[0].interpolate = true;
-  return Run(make_program(recipe, builtin_shape("builtin:sphere?n=642")));
+  return test::run_on_unit_sphere("[species.u]\ninitial = 'z'\n" + equation, stepper, step, 1);
 }
 
 /// The factor by which u has shrunk, if it is still a multiple of z to within a percent.
