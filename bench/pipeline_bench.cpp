@@ -33,7 +33,7 @@ int threads(const benchmark::State& state) { return static_cast<int>(state.range
 Program turing_program(std::int64_t vertices) {
   Recipe recipe;
   const double edge = std::sqrt(4 * 3.14159265358979 / static_cast<double>(vertices) * 2 / std::sqrt(3.0));
-  recipe.stages[0].size = Given<Length>{{10 * edge, false}, {}};
+  recipe.stages[0].size = Given<Length>{{10 * edge, Length::Unit::world}, {}};
   return make_program(recipe, sphere(vertices));
 }
 

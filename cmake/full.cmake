@@ -4,6 +4,7 @@ find_package(TBB REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
+find_package(pugixml REQUIRED)
 find_package(embree 3 REQUIRED)
 find_path(STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb REQUIRED)
 find_path(LIBDEFLATE_INCLUDE_DIR libdeflate.h REQUIRED)
@@ -30,7 +31,8 @@ target_include_directories(pelage_io SYSTEM PRIVATE ${STB_INCLUDE_DIR} ${TINYGLT
 target_link_libraries(pelage_io PUBLIC pelage_core PRIVATE tomlplusplus::tomlplusplus
   $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>  # a header of tinygltf
   $<BUILD_INTERFACE:${TINYGLTF_LIBRARY}> $<INSTALL_INTERFACE:tinygltf>
-  $<BUILD_INTERFACE:${LIBDEFLATE_LIBRARY}> $<INSTALL_INTERFACE:deflate>)
+  $<BUILD_INTERFACE:${LIBDEFLATE_LIBRARY}> $<INSTALL_INTERFACE:deflate>
+  $<BUILD_INTERFACE:pugixml::pugixml> $<INSTALL_INTERFACE:pugixml>)
 foreach(packer draco meshoptimizer)  # optional: without them compressed files are refused by name
   if(TARGET ${packer}::${packer})
     string(TOUPPER PELAGE_HAS_${packer} found)
@@ -43,15 +45,16 @@ pelage_library(pelage_look look)  # colours, plots, lettering
 target_include_directories(pelage_look SYSTEM PRIVATE ${STB_INCLUDE_DIR})
 target_link_libraries(pelage_look PUBLIC pelage_core)
 
-pelage_library(pelage catalog verify)  # from names to components; the interface of include/pelage
+pelage_library(pelage gridgen catalog verify)  # grids for regions; from names to components; the interface of include/pelage
 target_link_libraries(pelage PUBLIC pelage_look pelage_io)
 
 pelage_library(pelage_render render)  # pictures of surfaces
 target_link_libraries(pelage_render PUBLIC pelage_core PRIVATE embree)
 
-# models/*.toml and recipes/*.toml are compiled in, so that the program needs no data directory.
+# models/*.toml, recipes, regions and patches are compiled in, so that the program needs no data directory.
 file(GLOB data_files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
-  ${PROJECT_SOURCE_DIR}/models/*.toml ${PROJECT_SOURCE_DIR}/recipes/*.toml)
+  ${PROJECT_SOURCE_DIR}/models/*.toml ${PROJECT_SOURCE_DIR}/recipes/*.toml ${PROJECT_SOURCE_DIR}/regions/*.toml
+  ${PROJECT_SOURCE_DIR}/patches/*.toml)
 set(embedded_cpp ${PROJECT_BINARY_DIR}/embedded_data.cpp)
 list(TRANSFORM data_files PREPEND ${PROJECT_SOURCE_DIR}/ OUTPUT_VARIABLE data_paths)
 add_custom_command(OUTPUT ${embedded_cpp}

@@ -8,12 +8,12 @@ import pathlib
 import re
 import sys
 
-ORDER = "base < linalg shape react recipe < discretise io < time fair direction look < run < catalog < verify render < apps"
+ORDER = "base < linalg shape react recipe < discretise io < time fair direction look gridgen < run < catalog < verify render < apps"
 RANK = {layer: rank for rank, group in enumerate(ORDER.split("<")) for layer in group.split()}
 
 # The public headers belong to the layer that implements them.
 PUBLIC = {"error": "base", "point": "base", "progress": "base", "triangle_mesh": "shape", "polygon_mesh": "shape",
-          "up_axis": "shape", "image": "shape",
+          "up_axis": "shape", "image": "shape", "grid": "shape", "atlas": "shape",
           "finding": "shape", "stability": "react", "recipe": "recipe", "io": "io", "fair": "fair", "field": "direction",
           "run_summary": "run", "grow": "catalog", "analyse": "catalog", "render": "render", "pelage": "apps"}
 INCLUDE = re.compile(r'\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
@@ -21,8 +21,10 @@ INCLUDE = re.compile(r'\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 # Where headers belong that are neither of the C++ standard library nor of Eigen: those whose names begin like this, in
 # files whose paths begin like that.
 OUTSIDE = {"tbb/": ["src/base/parallel.cpp"], "toml++/": ["src/recipe/document.cpp"], "tiny_gltf.h": ["src/io/"],
-           "stb_image": ["src/io/"], "libdeflate.h": ["src/io/png_writer.cpp"], "stb_truetype.h": ["src/look/text.cpp"], "embree3/": ["src/render/"],
-           "unistd.h": ["src/io/", "apps/cli/"], "sys/": ["apps/cli/"], "CLI/": ["apps/cli/"], "nlohmann/": ["apps/cli/", "src/io/gltf_"],
+           "stb_image": ["src/io/"], "libdeflate.h": ["src/io/png_writer.cpp", "src/io/zlib.cpp"],
+           "pugixml.hpp": ["src/io/vtk_document."], "stb_truetype.h": ["src/look/text.cpp"], "embree3/": ["src/render/"],
+           "unistd.h": ["src/io/", "apps/cli/"],
+           "sys/": ["apps/cli/"], "CLI/": ["apps/cli/"], "nlohmann/": ["apps/cli/", "src/io/gltf_"],
            "draco/": ["src/io/gltf_draco.cpp"], "meshoptimizer.h": ["src/io/gltf_meshoptimizer.cpp"]}
 
 

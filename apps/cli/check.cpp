@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/length_unit.h"
+#include "catalog/shapes.h"
 #include "command.h"
 #include "pelage/io.h"
 #include "shape/describe.h"
@@ -86,7 +87,7 @@ struct CheckOptions {
 };
 
 void check(const CheckOptions& options) {
-  ShapeFile file = read_shape(options.shape);
+  ShapeFile file = find_shape(options.shape);
   MeshReport report = describe(file.mesh, std::move(file.findings));
   if (file.source && file.source->polygons.find("normal") && !file.mesh.find("normal"))
     report.attributes.emplace_back("normal (of the file, and kept with its form; the surface has its own)");

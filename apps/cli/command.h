@@ -27,6 +27,7 @@ Command add_gallery(CLI::App& parent);
 Command add_fair(CLI::App& parent);
 Command add_field(CLI::App& parent);
 Command add_compare(CLI::App& parent);
+Command add_grid(CLI::App& parent);
 Command add_recipes(CLI::App& parent);
 Command add_verify(CLI::App& parent);
 

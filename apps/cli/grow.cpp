@@ -8,6 +8,7 @@
 #include "catalog/bind.h"
 #include "catalog/images.h"
 #include "command.h"
+#include "grid_outputs.h"
 #include "grow_options.h"
 #include "grow_report.h"
 #include "input_unit.h"
@@ -19,6 +20,7 @@
 #include "panels.h"
 #include "pelage/io.h"
 #include "progress_bar.h"
+#include "space_time.h"
 #include "text.h"
 
 namespace pelage {
@@ -111,13 +113,18 @@ void advance(Run& run, std::int64_t steps) {
   }
 }
 
-void grow_to_the_end(Run& run, const GrowOptions& options, const Progress& progress, GrowReport& report) {
+/// `plot`: to be told of every step, or null.
+void grow_to_the_end(Run& run, const GrowOptions& options, SpaceTime* plot, const Progress& progress,
+                     GrowReport& report) {
   std::int64_t steps = 1;
   GrowthClock clock;
   while (!run.done() && progress("growing", run.fraction())) {
     const Stopwatch watch;
     advance(run, steps);
-    steps = next_steps(steps, watch.seconds());
+    if (plot)
+      plot->add(run);
+    else
+      steps = next_steps(steps, watch.seconds());
     report.warnings(run);
     if (const auto seconds = clock.estimate(run)) report.estimate(run, *seconds);
   }
@@ -126,13 +133,21 @@ void grow_to_the_end(Run& run, const GrowOptions& options, const Progress& progr
   if (interrupt_signal()) interrupted(run, options.checkpoint);
 }
 
+/// `grid`: the coat on that of the shape, if it is one.
 template <class Mesh>
-void write_outputs(const GrowOptions& options, const Mesh& coat, const SaveOptions& form, const Progress& progress,
-                   GrowReport& report) {
+void write_outputs(const GrowOptions& options, const Mesh& coat, const Grid* grid, const SaveOptions& form,
+                   const Progress& progress, GrowReport& report) {
   for (const std::string& path : options.outputs) {
     progress("writing " + path, 0);
-    interruptible("before " + path + " was written", [&] { save(coat, path, form); });
+    const bool as_grid = is_grid_output(path);
+    interruptible("before " + path + " was written", [&] {
+      if (as_grid)
+        save_grid(*grid, path);
+      else
+        save(coat, path, form);
+    });
     report.file(path);
+    if (as_grid) continue;
     for (const std::string& loss : losses(coat, extension_of(path))) report.warning(path + ": " + loss);
   }
 }
@@ -185,20 +200,47 @@ struct Grown {
   Paint paint;
 };
 
-Grown grown_coat(const GrowOptions& options, const Plan& planned, const Look& look, TriangleMesh shape,
+void require_line(const ShapeFile& file) {
+  if (!file.grid || file.grid->dimension() != 1)
+    throw Error(Fault::usage,
+                "--plot shows what a line does in the course of time; take builtin:line?n=60 for the shape");
+}
+
+/// As high as it may be; nodes become blocks of pixels where there is room.
+Image space_time_plot(const SpaceTime& plot, const Run& run, const Look& look, int size) {
+  const int across = std::max(1, size / static_cast<int>(run.space().unknowns()));
+  return zoomed(plot.picture(run, look, std::max(1, size / across)), across, across);
+}
+
+Program bound(const Plan& planned, ShapeFile& file, std::vector<Texture> images) {
+  if (file.grid) return bind_plan(planned, file.grid, std::move(images));
+  if (file.atlas) return bind_plan(planned, file.atlas, std::move(images));
+  return bind_plan(planned, std::move(file.mesh), std::move(images));
+}
+
+Grown grown_coat(const GrowOptions& options, const Plan& planned, const Look& look, ShapeFile& file,
                  std::vector<Texture> images, const Progress& progress, GrowReport& report) {
   Run run = interruptible("before the growth began; nothing was written",
-                          [&] { return Run(bind_plan(planned, std::move(shape), std::move(images)), progress); });
+                          [&] { return Run(bound(planned, file, std::move(images)), progress); });
   restore(run, options.resume);
   report.warnings(run);
   report.pattern(run);
   const Stopwatch growth;
-  grow_to_the_end(run, options, progress, report);
+  SpaceTime plot;
+  if (!options.plot.empty()) {
+    require_line(file);
+    plot.add(run);
+  }
+  grow_to_the_end(run, options, options.plot.empty() ? nullptr : &plot, progress, report);
   report.growth(run, growth.seconds());
   if (run.world().surface()) report.surface(*run.world().surface());
   if (!options.checkpoint.empty()) report.file(options.checkpoint);
   progress("colouring", 0);
   const CoatFields fields = run.fields();
+  if (!options.plot.empty()) {
+    write_png(space_time_plot(plot, run, look, options.picture_size), options.plot);
+    report.file(options.plot);
+  }
   if (look.keep_shape) report.coarseness(run);
   return {dress(fields, look), run.program().shape, resolve_paint(look, fields.species)};
 }
@@ -225,17 +267,23 @@ void grow(const GrowOptions& options) {
   report.shape(recipe.shape, file);
   if (!recipe.look.keep_shape) file.source.reset();
 
-  const Grown grown =
-      grown_coat(options, planned, recipe.look, std::move(file.mesh), std::move(images), progress, report);
+  const Grown grown = grown_coat(options, planned, recipe.look, file, std::move(images), progress, report);
   const UpAxis up = options.up.value_or(file.up);
   const SaveOptions form{object_name(file, recipe.shape), up};
   if (recipe.look.keep_shape)
-    write_outputs(options, kept_shape(form_of_shape(file, *grown.shape), grown.coat, grown.paint), form, progress,
-                  report);
-  else
-    write_outputs(options, grown.coat, form, progress, report);
+    write_outputs(options, kept_shape(form_of_shape(file, *grown.shape), grown.coat, grown.paint), nullptr, form,
+                  progress, report);
+  else if (file.grid) {
+    const Grid grid = on_grid(*file.grid, grown.coat);
+    write_outputs(options, surface_of(grid, grown.coat, grown.paint), &grid, form, progress, report);
+  } else
+    write_outputs(options, grown.coat, nullptr, form, progress, report);
   const PictureOptions picture = picture_options(options, *planned.quality, up);
-  write_picture(options.picture, progress, report, [&](const Progress& p) { return render(grown.coat, picture, p); });
+  write_picture(options.picture, progress, report, [&](const Progress& p) {
+    if (file.grid && is_flat(*file.grid))
+      return picture_of_nodes(*file.grid, grown.coat, options.preview, options.picture_size);
+    return render(grown.coat, picture, p);
+  });
   write_picture(options.panels, progress, report,
                 [&](const Progress& p) { return four_panels(recipe, *grown.shape, grown.coat, picture, p); });
   if (options.profile) report.profile(profile);

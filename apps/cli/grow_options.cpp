@@ -8,7 +8,9 @@
 #include "catalog/models.h"
 #include "catalog/plan.h"
 #include "catalog/quality.h"
+#include "catalog/shapes.h"
 #include "catalog/size.h"
+#include "grid_outputs.h"
 #include "input_unit.h"
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
@@ -24,6 +26,7 @@
 #include "pelage/io.h"
 #include "recipe/document.h"
 #include "settings.h"
+#include "shape/builtin_grids.h"
 #include "shape/generators.h"
 #include "time/stepper.h"
 #include "usage.h"
@@ -34,6 +37,7 @@ namespace {
 
 constexpr std::int64_t most_steps = 1'000'000'000'000;
 constexpr int largest_picture = 32768;
+constexpr int most_tiles = 16;
 
 std::string choices(const std::vector<std::string>& names) { return ": " + join_names(names); }
 
@@ -187,7 +191,8 @@ void add_look_options(CLI::App& app, GrowOptions& o) {
 void add_output_options(CLI::App& app, GrowOptions& o) {
   const std::string group = "Output";
   app.add_option("-o,--output", o.outputs,
-                 "Files for the coated mesh; the extension is the format" + choices(mesh_extensions()))
+                 "Files for the coated mesh; the extension is the format" + choices(mesh_extensions()) +
+                     "; of grids also" + choices(grid_output_extensions()))
       ->type_name("FILE[,FILE]")
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -196,7 +201,26 @@ void add_output_options(CLI::App& app, GrowOptions& o) {
          "--no-fields", o.no_fields,
          "Leave the concentrations of the species out of these files; colours and the shape's own attributes stay")
       ->group(group);
-  app.add_option("--picture", o.picture, "File for a picture: .png")->type_name("FILE")->group(group);
+  app.add_option("--picture", o.picture,
+                 "File for a picture: .png; of a flat grid its nodes as pixels, of a block its middle planes")
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option_function<std::string>(
+         "--preview",
+         [&o](const std::string& text) {
+           const auto counts = parse_counts(text, 2);
+           if (!counts || (*counts)[0] < 1 || (*counts)[1] < 1 || (*counts)[0] > most_tiles ||
+               (*counts)[1] > most_tiles)
+             throw CLI::ValidationError("--preview", "expected tiles across and down, 1 to 16 each, for example 3x3");
+           o.preview = {(*counts)[0], (*counts)[1]};
+         },
+         "Show a flat grid so many times across and down in its picture, as a floor of tiles: 3x3")
+      ->type_name("NxM")
+      ->group(group);
+  app.add_option("--plot", o.plot,
+                 "Of a line: file for a picture of the pattern in the course of time, downwards: .png")
+      ->type_name("FILE")
+      ->group(group);
   app.add_option("--panels", o.panels,
                  "With --fair: file for four pictures side by side, .png: the noisy shape, the faired one, the pattern "
                  "on the noisy shape, and the coat")
@@ -300,13 +324,13 @@ void apply_texture(const std::string& text, std::vector<TextureFile>& textures) 
 /// The size of the first stage; those of the others keep their proportion to it.
 void apply_size(const Length& size, std::vector<Stage>& stages) {
   if (stages.size() == 1) stages[0].unit.reset();
-  const Length before = stages[0].size ? stages[0].size->value : Length{default_size, true};
+  const Length before = stages[0].size ? stages[0].size->value : Length{default_size};
   for (Stage& stage : stages) {
-    const Length own = stage.size ? stage.size->value : Length{default_size, true};
-    if (own.relative != before.relative || own.metres != before.metres || stage.unit)
+    const Length own = stage.size ? stage.size->value : Length{default_size};
+    if (own.unit != before.unit || stage.unit)
       throw Error(Fault::usage,
                   "--size: the stages of the recipe have sizes of different kinds; use --set STAGE.size=");
-    stage.size = {{own.value / before.value * size.value, size.relative, size.metres}, {}};
+    stage.size = {{own.value / before.value * size.value, size.unit}, {}};
   }
 }
 
@@ -367,7 +391,8 @@ bool is_known(const std::string& name, const std::vector<std::string>& names) {
 std::string other_than_shape(const std::string& shape) {
   if (shape.ends_with(".toml")) {
     const Value document = read_document(shape);
-    return document.find("stage") ? "recipe" : "model";
+    if (document.find("stage")) return "recipe";
+    return document.find("species") ? "model" : "";
   }
   std::error_code ignored;
   if (std::filesystem::exists(shape, ignored)) return "";
@@ -387,7 +412,9 @@ void refuse_other_than_shape(const std::string& shape) {
 void add_options(CLI::App& app, GrowOptions& options) {
   app.add_option("SHAPE", options.shape,
                  "File to grow on" + choices(readable_extensions()) + "; or builtin:NAME?n=VERTICES" +
-                     choices(builtin_shape_names()) + ". May be left out when the recipe names one")
+                     choices(builtin_shape_names()) + "; or a grid, builtin:NAME?n=NODES or n=NODESxNODES" +
+                     choices(builtin_grid_names()) + ", or a file of one" + choices(readable_grid_extensions()) +
+                     ". May be left out when the recipe names one")
       ->type_name("");
   add_pattern_options(app, options);
   add_time_options(app, options);
@@ -413,24 +440,28 @@ Recipe make_recipe(const GrowOptions& options) {
 
 void check_inputs(const GrowOptions& options, const Recipe& recipe) {
   for (const TextureFile& texture : recipe.textures) require_file(texture.path);
-  check_shape_path(recipe.shape);
+  check_shape_name(recipe.shape);
   if (!options.resume.empty()) require_file(options.resume);
 }
 
 void require_outputs(const GrowOptions& options) {
-  if (options.outputs.empty() && options.picture.empty() && options.panels.empty())
+  if (options.outputs.empty() && options.picture.empty() && options.panels.empty() && options.plot.empty())
     throw Error(Fault::usage, "nothing to write; give -o FILE, --picture FILE or both");
 }
 
 void check_outputs(const GrowOptions& options, const std::string& shape) {
   for (const std::string& output : options.outputs) {
-    check_mesh_path(output);
+    if (is_grid_output(output))
+      check_grid_output(output, shape);
+    else
+      check_mesh_path(output);
     refuse_input_as_output(output, shape);
   }
   if (!options.picture.empty()) {
     check_picture_path(options.picture);
     check_picture_size(options.picture_size, options.picture_size, options.picture);
   }
+  if (!options.plot.empty()) check_picture_path(options.plot);
   if (!options.panels.empty()) {
     check_picture_path(options.panels);
     const auto [width, height] = size_of_panels(options.picture_size);

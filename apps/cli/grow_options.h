@@ -1,6 +1,7 @@
 #pragma once
 // The options of pelage grow.
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,7 +30,8 @@ struct GrowOptions {
   bool interpolate = false, invert = false, keep_shape = false, flat = false, no_fields = false;
 
   std::vector<std::string> outputs;
-  std::string picture, panels, checkpoint, resume;
+  std::string picture, panels, plot, checkpoint, resume;
+  std::array<int, 2> preview{1, 1};  ///< tiles across and down
   int picture_size = 1024;
   std::optional<UpAxis> up;  ///< given, or else what the file says
   bool json = false, quiet = false;

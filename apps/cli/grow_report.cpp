@@ -7,7 +7,9 @@
 
 #include "base/box.h"
 #include "base/length_unit.h"
+#include "shape/builtin_grids.h"
 #include "shape/generators.h"
+#include "shape/grid.h"
 #include "shape/refine.h"
 #include "text.h"
 
@@ -53,6 +55,21 @@ std::string meshing(const Method& method, int levels) {
   if (levels == 0) return "as it is";
   return "every triangle split into " + std::to_string(1L << (2 * levels)) +
          (smooth ? " by Loop's rules" : " at midpoints");
+}
+
+/// "512 x 512 grid, periodic along x and y".
+std::string grid_in_words(const Grid& grid) {
+  std::string counts, periodic;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(grid.dimension()); ++d) {
+    counts += (d ? " x " : "") + std::to_string(grid.count[d]);
+    if (grid.periodic[d]) periodic += (periodic.empty() ? "" : " and ") + std::string(1, "xyz"[d]);
+  }
+  return counts + " grid" + (periodic.empty() ? "" : ", periodic along " + periodic);
+}
+
+/// "6 patches".
+std::string nodes_in_words(const Program& program) {
+  return program.grid ? grid_in_words(*program.grid) : counted(program.atlas->patches.size(), "patch");
 }
 
 /// "60 x 40 x 10 mm".
@@ -108,9 +125,7 @@ void GrowReport::shape(const std::string& name, const ShapeFile& file) {
 }
 
 void GrowReport::pattern(const Run& run) {
-  const World& world = run.world();
-  const Topology& topology = world.topology();
-  const double diagonal = box_of(world.points()).diagonal();
+  const double diagonal = box_of(run.world().points()).diagonal();
   double finest = std::numeric_limits<double>::infinity();
   bool finest_known = true;
   json_["stages"] = Json::array();
@@ -134,13 +149,22 @@ void GrowReport::pattern(const Run& run) {
                                {"seed", p.seed}});
     if (!p.follows.empty()) json_["stages"].back()["follows"] = p.follows;
   }
+  nodes(run, finest, finest_known ? "wavelength" : brief(finest) + " world units");
+}
+
+void GrowReport::nodes(const Run& run, double finest, const std::string& per) {
+  const World& world = run.world();
   const Method& method = *run.program().method;
-  const double density = finest / prevailing_edge(topology.triangles, world.space().control());
-  line("mesh", meshing(method, world.levels()) + ": " + counted(topology.vertex_count, "vertex") + ", " +
-                   brief(density) + " per " + (finest_known ? "wavelength" : brief(finest) + " world units"));
+  const Program& program = run.program();
+  const auto count = static_cast<std::size_t>(world.space().unknowns());
+  const bool split = world.hierarchy() != nullptr;
+  const double edge = split ? prevailing_edge(world.topology().triangles, world.space().control()) : program.edge;
+  const double density = finest / edge;
+  line("mesh", (split ? meshing(method, world.levels()) : nodes_in_words(program)) + ": " +
+                   counted(count, split ? "vertex" : "node") + ", " + brief(density) + " per " + per);
   json_["method"] = method.name;
   json_["refinements"] = world.levels();
-  json_["control_vertices"] = topology.vertex_count;
+  json_["control_vertices"] = count;
   json_["vertices_per_wavelength"] = density;
 }
 
@@ -167,8 +191,8 @@ void GrowReport::surface(const MovingSurface& surface) {
 }
 
 void GrowReport::estimate(const Run& run, double seconds) {
-  line("growing",
-       "takes about " + duration(seconds) + " for " + counted(run.world().topology().vertex_count, "vertex"));
+  line("growing", "takes about " + duration(seconds) + " for " +
+                      counted(static_cast<std::size_t>(run.world().space().unknowns()), "vertex"));
   json_["estimated_growth_seconds"] = seconds;
 }
 

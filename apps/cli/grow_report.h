@@ -33,6 +33,8 @@ class GrowReport {
 
  private:
   void grown(const Run& run, std::size_t stage, const RunSummary& summary);
+  /// What the unknowns live on, for the finest pattern.
+  void nodes(const Run& run, double finest, const std::string& per);
   void line(const std::string& label, const std::string& text);
 
   Form form_;

@@ -2,6 +2,7 @@
 
 #include "base/length_unit.h"
 #include "base/suggest.h"
+#include "catalog/shapes.h"
 
 namespace pelage {
 
@@ -19,7 +20,7 @@ CLI::Option* add_input_unit_option(CLI::App& app, std::optional<double>& metres)
 }
 
 ShapeFile read_shape(const std::string& path, const std::optional<double>& metres_per_unit) {
-  ShapeFile file = read_shape(path);
+  ShapeFile file = find_shape(path);
   if (!metres_per_unit) return file;
   file.mesh.metres_per_unit = metres_per_unit;
   std::erase_if(file.findings, [](const Finding& f) { return f.kind == "unit"; });

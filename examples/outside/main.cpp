@@ -6,7 +6,8 @@
 int main() {
   try {
     pelage::Recipe recipe = pelage::load_recipe("demo");
-    recipe.stages[0].size = pelage::Given<pelage::Length>{{0.3, false}, {}};  // of the bounding box's diagonal
+    recipe.stages[0].size =
+        pelage::Given<pelage::Length>{{0.3, pelage::Length::Unit::world}, {}};  // of the bounding box's diagonal
     pelage::Growth growth(pelage::load_shape("builtin:sphere?n=642"), recipe);
     growth.advance(5);
     const pelage::TriangleMesh coat = growth.dress();

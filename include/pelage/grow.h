@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "pelage/error.h"
+#include "pelage/grid.h"
 #include "pelage/progress.h"
 #include "pelage/recipe.h"
 #include "pelage/run_summary.h"
@@ -40,6 +41,8 @@ class Growth {
   /// Resolves all names of the recipe and builds matrices and initial state: most errors come here. The shape is one
   /// that load_shape() or check_shape() gave (io.h). `progress` is told of this, and of every step in advance().
   Growth(TriangleMesh shape, const Recipe& recipe, const Progress& progress = {});
+  /// The same on a grid, which neither moves nor is split.
+  Growth(Grid grid, const Recipe& recipe, const Progress& progress = {});
   ~Growth();
   Growth(Growth&&) noexcept;
   Growth& operator=(Growth&&) noexcept;
@@ -75,6 +78,8 @@ class Growth {
   /// Error(Fault::usage), located, for faults in the look.
   TriangleMesh dress() const;
   TriangleMesh dress(const Look& look) const;
+  /// The same at the nodes of the grid, as its attributes. Error(Fault::usage) on surfaces.
+  Grid dress_grid() const;
 
   struct Field {
     std::string name;            ///< of the species, "STAGE.SPECIES" for earlier stages

@@ -19,21 +19,25 @@ struct Given {
   Location where;
 };
 
-/// A length: a fraction of the bounding box diagonal of the shape, at most 1; metres, which need a shape whose unit is
-/// known (TriangleMesh::metres_per_unit); or world units.
 struct Length {
+  enum class Unit {
+    diagonals,  ///< of the shape's bounding box; at most 1
+    world,
+    metres,  ///< which need a shape whose unit is known (TriangleMesh::metres_per_unit)
+    cells    ///< of a grid
+  };
   double value = 0;
-  bool relative = true;
-  bool metres = false;  ///< of those that are not relative
+  Unit unit = Unit::diagonals;
 };
 
 /// "0.04" is a fraction of the diagonal; "4mm", "2cm", "0.1m", "3in", "1ft" are metres; "1.5u" is in units of the
-/// shape. Error(Fault::usage) otherwise.
+/// shape; "24px" is in cells of a grid. Error(Fault::usage) otherwise.
 Length parse_length(const std::string& text, const Location& where);
 
 /// What the directions of anisotropic diffusion follow: at least one of these.
 struct Directions {
   std::optional<Point> axis;                     ///< the projection of this vector
+  std::optional<Point> centre;                   ///< away from this place, in the bounding box (-1 to 1 each)
   bool curvature = false;                        ///< the larger principal curvature
   std::optional<Given<std::string>> from, to;    ///< formulas: the gradient of the harmonic function between the
                                                  ///< vertices where the one and those where the other is not 0
@@ -72,11 +76,19 @@ struct Stage {
   Given<std::string> inside{"frozen", {}};  ///< "frozen": concentrations stay what they are, and diffuse outward;
                                             ///< "excluded": nothing reacts or diffuses inside, nor through the border
   std::vector<SpeciesFormula> pin;          ///< concentrations to which the inside of the mask is set at the start
-  std::optional<Directions> directions;     ///< default: the shape's attribute "direction", or its smoothest field
-  std::optional<Given<Length>> points;      ///< spacing of random points; the formula `points` is the distance to the
-                                            ///< nearest in spacings
-  std::optional<Given<Length>> size;        ///< wanted wavelength of the pattern; default: 4 % of the diagonal
-  std::optional<Given<Length>> unit;        ///< instead of it: the length of the model's own length unit
+  /// What holds for a species at a side of a grid instead of no flux: a value, or n . D grad u = flux - loss u with the
+  /// normal n outwards; formulas of the place and the time t, in the units of the model.
+  struct Border {
+    Given<std::string> side;  ///< "xmin", "xmax", "ymin", ...: the ends of the first, second and third axis
+    Given<std::string> species;
+    std::optional<Given<std::string>> value, flux, loss;
+  };
+  std::vector<Border> boundary;
+  std::optional<Directions> directions;  ///< default: the shape's attribute "direction", or its smoothest field
+  std::optional<Given<Length>> points;   ///< spacing of random points; the formula `points` is the distance to the
+                                         ///< nearest in spacings
+  std::optional<Given<Length>> size;     ///< wanted wavelength of the pattern; default: 4 % of the diagonal
+  std::optional<Given<Length>> unit;     ///< instead of it: the length of the model's own length unit
   std::optional<Given<std::string>> size_map;  ///< formula of the place: factor on the size
   Given<std::string> method{"remeshed", {}};   ///< discretisation
   Given<std::string> stepper{"", {}};          ///< empty: the first that suits the method and the model

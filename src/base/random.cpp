@@ -21,6 +21,9 @@ double lattice_value(std::int64_t i, std::int64_t j, std::int64_t k, std::uint64
   return 2 * uniform(row, static_cast<std::uint64_t>(k)) - 1;
 }
 
+/// From 0 to n - 1.
+std::int64_t modulo(std::int64_t i, std::int64_t n) { return ((i % n) + n) % n; }
+
 constexpr double furthest = 0x1p62;  // lattice points beyond have no numbers
 
 }  // namespace
@@ -33,22 +36,25 @@ std::uint64_t place_seed(const std::array<double, 3>& place, double length, std:
   return seed;
 }
 
-double smooth_noise(const std::array<double, 3>& place, double length, std::uint64_t seed) {
-  std::array<std::int64_t, 3> cell{};
+double smooth_noise(const std::array<double, 3>& place, double length, std::uint64_t seed,
+                    const std::array<double, 3>& period) {
+  std::array<std::array<std::int64_t, 4>, 3> cell{};
   std::array<std::array<double, 4>, 3> weight{};
   for (std::size_t d = 0; d < 3; ++d) {
-    const double x = place[d] / length;
+    const double cells = period[d] > 0 ? std::clamp(std::round(period[d] / length), 1.0, furthest) : 0;
+    const double x = place[d] / (cells > 0 ? period[d] / cells : length);
     const double floor = std::floor(x);
-    cell[d] = saturated<std::int64_t>(std::clamp(floor, -furthest, furthest)) - 1;
+    const auto first = saturated<std::int64_t>(std::clamp(floor, -furthest, furthest)) - 1;
+    for (std::int64_t i = 0; i < 4; ++i)
+      cell[d][static_cast<std::size_t>(i)] =
+          cells > 0 ? modulo(first + i, static_cast<std::int64_t>(cells)) : first + i;
     weight[d] = cubic_bspline(x - floor);
   }
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < 4; ++j)
       for (std::size_t k = 0; k < 4; ++k)
-        sum += weight[0][i] * weight[1][j] * weight[2][k] *
-               lattice_value(cell[0] + static_cast<std::int64_t>(i), cell[1] + static_cast<std::int64_t>(j),
-                             cell[2] + static_cast<std::int64_t>(k), seed);
+        sum += weight[0][i] * weight[1][j] * weight[2][k] * lattice_value(cell[0][i], cell[1][j], cell[2][k], seed);
   // Variance of the sum, averaged over a cell: (1/3) * c^3 with c = integral of the squared B-spline = 151/315.
   constexpr double mean_square = 151.0 / 315.0;
   static const double scale = std::sqrt(3 / (mean_square * mean_square * mean_square));

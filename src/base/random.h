@@ -30,7 +30,9 @@ std::uint64_t place_seed(const std::array<double, 3>& place, double length, std:
 /// Band-limited noise at a place in space: independent lattice values of spacing `length`, smoothed by the
 /// tensor product of cubic B-splines. Mean 0, variance 1 (averaged over space), twice continuously
 /// differentiable; features much smaller than `length` are absent. Depends on the place, not on any mesh. Beyond 2^62
-/// lengths from the origin, where places are further apart than features, it is constant.
-double smooth_noise(const std::array<double, 3>& place, double length, std::uint64_t seed);
+/// lengths from the origin, where places are further apart than features, it is constant. `period`: 0, or after which
+/// it repeats along an axis, for which `length` there becomes the nearest that divides it.
+double smooth_noise(const std::array<double, 3>& place, double length, std::uint64_t seed,
+                    const std::array<double, 3>& period = {});
 
 }  // namespace pelage

@@ -16,7 +16,7 @@ std::vector<StepLimit> largest_steps(const Model& model, double spacing, double 
   const double k2 = largest_k2_of_coarsest_mesh(spacing, resolution);
   std::vector<StepLimit> limits;
   for (const StepperKind* stepper : stepper_kinds())
-    if (!stepper->any_step && (stepper->couples || model.coupled().empty()))
+    if (!stepper->any_step && !stepper->lattice && (stepper->couples || model.coupled().empty()))
       limits.push_back({std::string(stepper->name), largest_stable_step(model, *stepper, k2)});
   return limits;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/box.h"
+#include "base/number.h"
 #include "base/suggest.h"
 #include "catalog/images.h"
 #include "catalog/marks.h"
@@ -11,9 +13,13 @@
 #include "catalog/names.h"
 #include "catalog/size.h"
 #include "react/place_values.h"
+#include "run/constant_diffusion.h"
 #include "run/directions.h"
 #include "run/material.h"
 #include "run/random_points.h"
+#include "shape/atlas.h"
+#include "shape/grid.h"
+#include "shape/refine.h"
 
 namespace pelage {
 
@@ -61,10 +67,18 @@ std::vector<Symbol> symbols_of(const PlannedStage& stage) {
   return symbols;
 }
 
+/// A place that is given from -1 to 1 in the box.
+Point in_box(const Point& place, const Box& box) {
+  Point p = box.middle();
+  for (std::size_t k = 0; k < 3; ++k) p[k] += place[k] * (box.high[k] - box.low[k]) / 2;
+  return p;
+}
+
 FieldWish bind_directions(const PlannedStage& planned, const MeshPlaces& places, double diagonal) {
   const Directions& d = *planned.asked.directions;
   FieldWish wish;
   wish.axis = d.axis;
+  if (d.centre) wish.centre = in_box(*d.centre, box_of(places.shape.points));
   wish.curvature = d.curvature;
   wish.strokes = d.strokes;
   if (planned.from) {
@@ -74,6 +88,18 @@ FieldWish bind_directions(const PlannedStage& planned, const MeshPlaces& places,
   wish.across = d.across;
   wish.smooth = default_field_smoothing * diagonal;
   return wish;
+}
+
+void require_sides(const std::vector<BorderCondition>& borders, const Grid* grid) {
+  for (const BorderCondition& c : borders) {
+    if (!grid) throw Error(Fault::usage, "conditions at borders are for grids; leave [boundary] out", c.where);
+    const std::vector<std::string> sides = axis_ends(*grid);
+    if (std::ranges::count(sides, c.side) == 0)
+      throw Error(
+          Fault::usage,
+          sides.empty() ? "the grid has no sides: all its axes are periodic" : unknown_name("side", c.side, sides),
+          c.where);
+  }
 }
 
 StageProgram bind_stage(const PlannedStage& planned, const Program& program, const ShapeScale& scale) {
@@ -97,14 +123,16 @@ StageProgram bind_stage(const PlannedStage& planned, const Program& program, con
   s.steps = asked.steps;
   s.stationary = asked.stationary.value_or(suggested.tolerance.value_or(0));
   s.seed = asked.seed;
+  s.borders = planned.borders;
+  require_sides(s.borders, program.grid.get());
   if (asked.directions)
     s.directions = bind_directions(planned, {*program.shape, program.textures, s.length_unit, s.seed}, scale.diagonal);
   return s;
 }
 
-void note_directions(const TriangleMesh& shape, StageProgram& s, std::vector<std::string>& warnings) {
+void note_directions(const Program& p, StageProgram& s, std::vector<std::string>& warnings) {
   if (!s.model.anisotropic()) return;
-  const FollowedDirections followed = followed_directions(shape, s.directions);
+  const FollowedDirections followed = followed_directions(*p.shape, s.directions, p.grid != nullptr);
   s.follows = followed.text;
   if (!followed.warning.empty()) warnings.push_back(followed.warning);
 }
@@ -147,8 +175,38 @@ bool sizes_differ(const Plan& plan, const Method& method) {
   return method.own_mesh && std::ranges::any_of(plan.stages, [](const auto& s) { return s.size_map.has_value(); });
 }
 
+/// A method of surfaces makes room for that of grids where the recipe does not insist.
+const Method* grid_method_of(const Plan& plan) {
+  if (!plan.method_asked) return &grid_method;
+  if (plan.method->make_grid_space) return plan.method;
+  throw Error(Fault::usage, "the method \"" + std::string(plan.method->name) + "\" is for surfaces; on a grid take \"" +
+                                std::string(grid_method.name) + "\"");
+}
+
+/// Before any work: steppers that know waves alone.
+void require_even_diffusion(const PlannedStage& s) {
+  if (s.stepper->lattice && !diffuses_evenly(s.model))
+    throw Error(Fault::usage,
+                "the stepper \"" + std::string(s.stepper->name) +
+                    "\" needs a diffusion that is the same everywhere, and that of \"" + s.model.name() +
+                    "\" is not here; leave the stepper out",
+                s.asked.stepper.where);
+}
+
+void require_no_lattice(const Plan& plan) {
+  for (const PlannedStage& s : plan.stages)
+    if (s.stepper->lattice)
+      throw Error(Fault::usage,
+                  "the stepper \"" + std::string(s.stepper->name) +
+                      "\" is for even grids, which the shape is not; leave the stepper out",
+                  s.asked.stepper.where);
+}
+
 /// Loop elements are made for moderate valences: where the recipe does not insist, others take their place.
 const Method* fitting_method(const Plan& plan, const TriangleMesh& shape, std::vector<std::string>& warnings) {
+  if (!plan.method->make_space)
+    throw Error(Fault::usage, "the method \"" + std::string(plan.method->name) +
+                                  "\" is for grids, and the shape is a mesh; leave the method away");
   const Index valence = max_valence(make_topology(shape.points.size(), shape.triangles));
   if (plan.method_asked || valence <= plan.method->max_valence) return plan.method;
   warnings.push_back("a vertex has " + std::to_string(valence) + " edges, more than the " +
@@ -159,27 +217,113 @@ const Method* fitting_method(const Plan& plan, const TriangleMesh& shape, std::v
 
 }  // namespace
 
-Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> images) {
+namespace {
+
+/// Whether the shape has all that the plan reads from it.
+void require_fitting(const Plan& plan, const TriangleMesh& shape, const ShapeScale& scale) {
   const std::vector<std::string> known = attributes_of(shape, plan.textures);
   require_uv(shape, plan.textures);
-  const ShapeScale scale = scale_of(shape);
   for (const PlannedStage& s : plan.stages)
     require_attributes(symbols_of(s), shape, known,
                        s.asked.points ? std::vector<std::string>{points_attribute} : std::vector<std::string>{});
   require_attributes(plan.paint.symbols(), shape, known, names_of_look(plan.paint.species, known));
   if (!(scale.diagonal > 0)) throw Error(Fault::input, "the shape has no extent: all its vertices are at one place");
+}
+
+/// All but method, shape and stages.
+Program begin_program(const Plan& plan, std::vector<Texture> images) {
   Program p;
-  p.method = fitting_method(plan, shape, p.warnings);
-  p.shape = std::make_shared<const TriangleMesh>(std::move(shape));
   p.textures = std::move(images);
   p.interpolate = plan.interpolate;
   p.step_error = plan.quality->step_error;
   p.motion = {plan.fair, plan.motion.growth, plan.motion.mode.value == "physical", plan.motion.every};
+  return p;
+}
+
+void count_iterations(const Plan& plan, Program& p) {
+  for (std::size_t k = 0; k < p.stages.size(); ++k)
+    p.stages[k].iterations = likely_iterations(plan.stages[k], plan, p, p.stages[k]);
+}
+
+void require_at_rest(const Plan& plan) {
+  if (plan.fair || plan.motion.growth != 0)
+    throw Error(Fault::usage, "a grid stays where it is: leave fairing and growth out");
+}
+
+/// The nodes of a grid are what they are.
+void warn_if_coarse(const PlannedStage& planned, Program& p) {
+  const StageProgram& s = p.stages.back();
+  const double needed = planned.model.source().suggestions.resolution_or_default(), nodes = s.size / p.edge;
+  if (nodes < needed)
+    p.warnings.push_back((p.stages.size() > 1 ? s.name + ": " : "") + "the wavelength is " + number(nodes, 3) +
+                         " cells of the grid, fewer than the " + number(needed) +
+                         " that the model needs: the grid itself may show in the pattern");
+}
+
+}  // namespace
+
+namespace {
+
+/// On the nodes of a shape as they are, with its mesh.
+Program bind_nodes(const Plan& plan, TriangleMesh shape, const ShapeScale& scale, std::vector<Texture> images) {
+  require_fitting(plan, shape, scale);
+  require_at_rest(plan);
+  Program p = begin_program(plan, std::move(images));
+  p.method = grid_method_of(plan);
+  p.shape = std::make_shared<const TriangleMesh>(std::move(shape));
+  p.edge = *scale.cell;
+  return p;
+}
+
+void bind_stages(const Plan& plan, const ShapeScale& scale, const Point& period, Program& p) {
+  for (const PlannedStage& s : plan.stages) {
+    require_even_diffusion(s);
+    p.stages.push_back(bind_stage(s, p, scale));
+    p.stages.back().period = period;
+    note_directions(p, p.stages.back(), p.warnings);
+    warn_if_coarse(s, p);
+  }
+  count_iterations(plan, p);
+}
+
+}  // namespace
+
+Program bind_plan(const Plan& plan, std::shared_ptr<const Grid> grid, std::vector<Texture> images) {
+  if (!grid->even()) require_no_lattice(plan);
+  TriangleMesh shape = mesh_of(*grid);
+  if (!plan.textures.empty() && !shape.find("uv")) shape.set(uv_of(*grid));
+  const ShapeScale scale = scale_of(*grid);
+  Program p = bind_nodes(plan, std::move(shape), scale, std::move(images));
+  p.grid = std::move(grid);
+  bind_stages(plan, scale, period_of(*p.grid), p);
+  return p;
+}
+
+Program bind_plan(const Plan& plan, std::shared_ptr<const Atlas> atlas, std::vector<Texture> images) {
+  require_no_lattice(plan);
+  TriangleMesh shape = mesh_of(*atlas);
+  ShapeScale scale = scale_of(shape);
+  scale.cell = prevailing_edge(shape.triangles, shape.points);
+  Program p = bind_nodes(plan, std::move(shape), scale, std::move(images));
+  p.atlas = std::move(atlas);
+  if (!p.method->make_atlas_space)
+    throw Error(Fault::usage, "the method \"" + std::string(p.method->name) + "\" is for single grids");
+  bind_stages(plan, scale, {}, p);
+  return p;
+}
+
+Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> images) {
+  require_no_lattice(plan);
+  const ShapeScale scale = scale_of(shape);
+  require_fitting(plan, shape, scale);
+  Program p = begin_program(plan, std::move(images));
+  p.method = fitting_method(plan, shape, p.warnings);
+  p.shape = std::make_shared<const TriangleMesh>(std::move(shape));
   p.edge = std::numeric_limits<double>::infinity();
   if (sizes_differ(plan, *p.method)) p.edges.assign(p.shape->points.size(), p.edge);
   for (const PlannedStage& s : plan.stages) {
     p.stages.push_back(bind_stage(s, p, scale));
-    note_directions(*p.shape, p.stages.back(), p.warnings);
+    note_directions(p, p.stages.back(), p.warnings);
     need_edges_of(s, *plan.quality, p);
   }
   // The shape itself needs some.
@@ -190,9 +334,13 @@ Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> ima
   const double growth = std::exp(std::max(0.0, plan.motion.growth * plan.until));
   p.edge /= growth;
   for (double& edge : p.edges) edge /= growth;
-  for (std::size_t k = 0; k < p.stages.size(); ++k)
-    p.stages[k].iterations = likely_iterations(plan.stages[k], plan, p, p.stages[k]);
+  count_iterations(plan, p);
   return p;
+}
+
+Program make_program(const Recipe& recipe, Grid grid) {
+  require_sound(grid);
+  return bind_plan(plan(recipe), std::make_shared<const Grid>(std::move(grid)), read_images(recipe.textures));
 }
 
 Program make_program(const Recipe& recipe, TriangleMesh shape) {

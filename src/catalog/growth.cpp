@@ -55,6 +55,11 @@ Growth::Growth(TriangleMesh shape, const Recipe& recipe, const Progress& progres
     : parts_(std::make_unique<Parts>(
           Parts{Run(make_program(recipe, std::move(shape)), progress), recipe.look, progress})) {}
 
+Growth::Growth(Grid grid, const Recipe& recipe, const Progress& progress)
+    : parts_(
+          std::make_unique<Parts>(Parts{Run(make_program(recipe, std::move(grid)), progress), recipe.look, progress})) {
+}
+
 Growth::~Growth() = default;
 Growth::Growth(Growth&&) noexcept = default;
 Growth& Growth::operator=(Growth&&) noexcept = default;
@@ -92,6 +97,12 @@ TriangleMesh Growth::dress(const Look& look) const {
   const CoatFields fields = parts_->run.fields();
   const Paint paint = resolve_paint(look, fields.species);
   return pelage::dress(parts_->tessellations.of(parts_->run, tessellation_request(look, paint)), paint, fields.uniform);
+}
+
+Grid Growth::dress_grid() const {
+  const CoatFields fields = parts_->run.fields();
+  if (!fields.grid) throw Error(Fault::usage, "the coat has grown on a surface, not on a grid");
+  return on_grid(*fields.grid, dress());
 }
 
 std::vector<Growth::Field> Growth::fields() const {

@@ -62,35 +62,56 @@ void require_same_method(const Stage& first, const Stage& stage) {
                 stage.method.where);
 }
 
+/// What keeps a stepper from the borders that the stage asks for; empty if nothing does.
+std::string what_borders_need(const StepperKind& stepper, const std::vector<Stage::Border>& borders) {
+  if (borders.empty()) return {};
+  if (stepper.lattice) return "let anything through borders";
+  const bool values = std::ranges::any_of(borders, [](const auto& b) { return b.value.has_value(); });
+  return values && !stepper.gives_values ? "give values at borders" : "";
+}
+
 /// What keeps a stepper from growing a model with a method; empty if nothing does.
-std::string what_stepper_cannot(const StepperKind& stepper, const Method& method, const Model& model) {
+std::string what_stepper_cannot(const StepperKind& stepper, const Method& method, const Model& model,
+                                const std::vector<Stage::Border>& borders) {
+  if (std::string what = what_borders_need(stepper, borders); !what.empty()) return what;
   if (!stepper.couples && !model.coupled().empty())
     return "grow \"" + model.name() + "\", whose species are coupled by lap()";
   if (!stepper.holds && model.held()) return "hold parts of the surface";
+  if (stepper.lattice && !method.make_grid_space) return "grow on a surface: it is for even grids";
+  if (!method.symmetric && (stepper.symmetric || !model.coupled().empty()))
+    return "grow \"" + model.name() + "\" with the method \"" + std::string(method.name) +
+           "\", whose matrices are not symmetric";
   if (stepper.nodal && !method.nodal)
     return "grow with the method \"" + std::string(method.name) + "\", whose unknowns are no values at places";
   return {};
 }
 
+/// Error(usage) where it cannot grow the model; the stepper that can do most, or the method, is to blame then.
+const StepperKind& require_able(const StepperKind& stepper, const Method& method, const Model& model,
+                                const std::vector<Stage::Border>& borders, const Location& where) {
+  const std::string what = what_stepper_cannot(stepper, method, model, borders);
+  const std::string other = method.symmetric
+                                ? "take \"" + std::string(sbdf2.name) + "\""
+                                : "take another stepper, or the method \"" + std::string(grid_method.name) + "\"";
+  if (!what.empty())
+    throw Error(Fault::usage, "the stepper \"" + std::string(stepper.name) + "\" cannot " + what + "; " + other, where);
+  return stepper;
+}
+
 /// The asked one, or else the first that can.
 const StepperKind* fitting_stepper(const Given<std::string>& asked, const Method& method, const Model& model,
-                                   const Motion& motion, const Components& components) {
+                                   const std::vector<Stage::Border>& borders, const Motion& motion,
+                                   const Components& components) {
   if (asked.value.empty()) {
     const bool dilutes = motion.growth != 0 && motion.mode.value == "physical";
     const auto can = [&](const StepperKind* kind) {
-      return what_stepper_cannot(*kind, method, model).empty() && (kind->dilutes || !dilutes);
+      return what_stepper_cannot(*kind, method, model, borders).empty() && (kind->dilutes || !dilutes);
     };
     if (const auto found = std::ranges::find_if(components.steppers, can); found != components.steppers.end())
       return *found;
-    return &sbdf2;
+    return &require_able(sbdf2, method, model, borders, {});
   }
-  const StepperKind& stepper = component(asked, "stepper", components.steppers);
-  if (const std::string what = what_stepper_cannot(stepper, method, model); !what.empty())
-    throw Error(Fault::usage,
-                "the stepper \"" + std::string(stepper.name) + "\" cannot " + what + "; take \"" +
-                    std::string(sbdf2.name) + "\"",
-                asked.where);
-  return &stepper;
+  return &require_able(component(asked, "stepper", components.steppers), method, model, borders, asked.where);
 }
 
 const Quality& quality_called(const Given<std::string>& name) {
@@ -137,11 +158,33 @@ void plan_directions(const Directions& d, PlannedStage& stage) {
   stage.to = marks(d.to);
 }
 
-std::optional<PlaceFormula> plan_size_map(const Stage& stage, const Model& model) {
-  if (!stage.size_map) return {};
+std::map<std::string, double> parameters_of(const Model& model) {
   std::map<std::string, double> numbers;
   for (const ParameterSource& p : model.parameters()) numbers[p.name] = p.value;
-  PlaceFormula formula({stage.size_map->value, stage.size_map->where}, {}, numbers);
+  return numbers;
+}
+
+std::vector<BorderCondition> plan_borders(const Stage& stage, const Model& model) {
+  std::vector<BorderCondition> borders;
+  std::vector<std::string> species;
+  for (std::size_t i = 0; i < model.species_count(); ++i) species.push_back(model.species_name(i));
+  for (const Stage::Border& b : stage.boundary) {
+    require_known(b.species, "species", species);
+    BorderCondition& c = borders.emplace_back(BorderCondition{b.side.value, b.side.where, 0, {}, {}, {}});
+    c.species = static_cast<std::size_t>(std::ranges::find(species, b.species.value) - species.begin());
+    if (model.algebraic(c.species) || std::ranges::count(model.coupled(), c.species) > 0)
+      throw Error(Fault::usage, "at borders species that are coupled by lap(), or follow others, have no flux",
+                  b.species.where);
+    for (const auto& [given, planned] :
+         {std::pair{&b.value, &c.value}, std::pair{&b.flux, &c.flux}, std::pair{&b.loss, &c.loss}})
+      if (*given) planned->emplace(Formula{(*given)->value, (*given)->where}, parameters_of(model));
+  }
+  return borders;
+}
+
+std::optional<PlaceFormula> plan_size_map(const Stage& stage, const Model& model) {
+  if (!stage.size_map) return {};
+  PlaceFormula formula({stage.size_map->value, stage.size_map->where}, {}, parameters_of(model));
   return known_from_mesh(formula) ? std::optional(std::move(formula)) : std::nullopt;
 }
 
@@ -163,7 +206,8 @@ PlannedStage plan_stage(const Stage& stage, const Recipe& recipe, const Method& 
   const std::vector<std::string> fields = earlier_fields(before);
   p.model = compile(source, numbers_of(stage), stage_changes(source, stage, fields));
   require_fields(place_symbols(p.model), fields);
-  p.stepper = fitting_stepper(stage.stepper, method, p.model, recipe.motion, components);
+  p.stepper = fitting_stepper(stage.stepper, method, p.model, stage.boundary, recipe.motion, components);
+  p.borders = plan_borders(stage, p.model);
   if (stage.directions) plan_directions(*stage.directions, p);
   p.size_map = plan_size_map(stage, p.model);
   require_sizes(stage);
@@ -209,6 +253,15 @@ std::vector<std::string> shown_fields(const std::vector<PlannedStage>& stages) {
   return names;
 }
 
+/// Whether a stepper is named that knows nothing but even grids.
+bool asks_for_lattice(const std::vector<Stage>& stages, const Components& components) {
+  return std::ranges::any_of(stages, [&](const Stage& stage) {
+    return std::ranges::any_of(components.steppers, [&](const StepperKind* kind) {
+      return kind->lattice && kind->name == stage.stepper.value;
+    });
+  });
+}
+
 }  // namespace
 
 Plan plan(const Recipe& recipe, const Components& components) {
@@ -217,6 +270,7 @@ Plan plan(const Recipe& recipe, const Components& components) {
   const Given<std::string>& method = recipe.stages[0].method;
   p.method = &component(method, "method", components.methods);
   p.method_asked = !method.where.file.empty();
+  if (!p.method_asked && asks_for_lattice(recipe.stages, components)) p.method = &grid_method;
   p.quality = &quality_called(recipe.quality);
   p.textures = recipe.textures;
   for (const Stage& stage : recipe.stages) {

@@ -11,6 +11,7 @@
 #include "pelage/recipe.h"
 #include "react/model.h"
 #include "react/place_formula.h"
+#include "run/borders.h"
 
 namespace pelage {
 
@@ -22,7 +23,8 @@ struct PlannedStage {
   const StepperKind* stepper = nullptr;
   std::optional<PlaceFormula> size_map;  ///< where a mesh alone tells it
   std::optional<PlaceFormula> from, to;  ///< of the directions
-  double until = 0;                      ///< model time
+  std::vector<BorderCondition> borders;
+  double until = 0;  ///< model time
 };
 
 /// Immutable; nothing in it depends on a shape.

@@ -7,31 +7,23 @@
 
 namespace pelage {
 
+std::vector<std::string> recipe_names() { return embedded_names("recipes"); }
+
 namespace {
 
-constexpr std::string_view recipe_folder = "recipes/", extension = ".toml";
-
-std::string path_of(const std::string& name) { return std::string(recipe_folder) + name + std::string(extension); }
-
-}  // namespace
-
-std::vector<std::string> recipe_names() {
-  std::vector<std::string> names;
-  for (const EmbeddedFile& f : embedded_files())
-    if (f.path.starts_with(recipe_folder))
-      names.emplace_back(f.path.substr(recipe_folder.size(), f.path.size() - recipe_folder.size() - extension.size()));
-  return names;
-}
-
-std::string recipe_text(const std::string& name) {
-  for (const EmbeddedFile& f : embedded_files())
-    if (f.path == path_of(name)) return std::string(f.text);
+const EmbeddedFile& recipe_file(const std::string& name) {
+  if (const EmbeddedFile* f = find_embedded("recipes", name)) return *f;
   throw Error(Fault::usage, unknown_name("recipe", name, recipe_names()));
 }
 
+}  // namespace
+
+std::string recipe_text(const std::string& name) { return std::string(recipe_file(name).text); }
+
 Recipe load_recipe(const std::string& name_or_path) {
-  if (name_or_path.ends_with(extension)) return parse_recipe(read_text(name_or_path), name_or_path);
-  return parse_recipe(recipe_text(name_or_path), path_of(name_or_path));
+  if (name_or_path.ends_with(".toml")) return parse_recipe(read_text(name_or_path), name_or_path);
+  const EmbeddedFile& f = recipe_file(name_or_path);
+  return parse_recipe(std::string(f.text), std::string(f.path));
 }
 
 }  // namespace pelage

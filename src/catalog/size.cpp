@@ -5,6 +5,7 @@
 #include "base/box.h"
 #include "base/length_unit.h"
 #include "base/number.h"
+#include "shape/grid.h"
 
 namespace pelage {
 
@@ -22,7 +23,7 @@ namespace {
 
 /// More than the whole shape is no fraction of it: most likely the unit was forgotten.
 void require_fraction(const char* what, const std::optional<Given<Length>>& length) {
-  if (!length || !length->value.relative || length->value.value <= 1) return;
+  if (!length || length->value.unit != Length::Unit::diagonals || length->value.value <= 1) return;
   const std::string given = number(length->value.value);
   throw Error(Fault::usage,
               std::string(what) + " " + given + " is " + given +
@@ -35,17 +36,37 @@ void require_fraction(const char* what, const std::optional<Given<Length>>& leng
 
 ShapeScale scale_of(const TriangleMesh& shape) {
   const Box box = box_of(shape.points);
-  ShapeScale scale{box.diagonal(), 0, box.middle(), shape.metres_per_unit};
+  ShapeScale scale{box.diagonal(), 0, box.middle(), shape.metres_per_unit, {}};
+  for (std::size_t k = 0; k < 3; ++k) scale.longest = std::max(scale.longest, box.high[k] - box.low[k]);
+  return scale;
+}
+
+ShapeScale scale_of(const Grid& grid) {
+  ShapeScale scale;
+  scale.metres_per_unit = grid.metres_per_unit;
+  scale.cell = mean_edge(grid);
+  const Box box = box_of_cells(grid);
+  scale.diagonal = box.diagonal();
+  scale.middle = box.middle();
   for (std::size_t k = 0; k < 3; ++k) scale.longest = std::max(scale.longest, box.high[k] - box.low[k]);
   return scale;
 }
 
 double world_length(const Given<Length>& length, const ShapeScale& scale) {
   const Length& l = length.value;
-  if (l.relative) return l.value * scale.diagonal;
-  if (!l.metres) return l.value;
-  if (!scale.metres_per_unit) refuse_unknown_unit(length, scale);
-  return l.value / *scale.metres_per_unit;
+  switch (l.unit) {
+    case Length::Unit::diagonals:
+      return l.value * scale.diagonal;
+    case Length::Unit::metres:
+      if (!scale.metres_per_unit) refuse_unknown_unit(length, scale);
+      return l.value / *scale.metres_per_unit;
+    case Length::Unit::cells:
+      if (!scale.cell) throw Error(Fault::usage, "px are cells of a grid, and the shape is none", length.where);
+      return l.value * *scale.cell;
+    case Length::Unit::world:
+      break;
+  }
+  return l.value;
 }
 
 void require_sizes(const Stage& stage) {
@@ -62,7 +83,7 @@ StageSize stage_size(const Stage& stage, double model_wavelength, const ShapeSca
     const double unit = world_length(*stage.unit, scale);
     return {unit * model_wavelength, unit};
   }
-  const double size = world_length(stage.size.value_or(Given<Length>{{default_size, true}, {}}), scale);
+  const double size = world_length(stage.size.value_or(Given<Length>{{default_size}, {}}), scale);
   return {size, size / model_wavelength};
 }
 

@@ -168,14 +168,30 @@ std::vector<Guide> stroke_guides(const Connection& c, const std::vector<Point>& 
   return guides;
 }
 
+namespace {
+
+/// Weighted by how far the direction, of length 1, is tangent.
+Guide tangential_guide(const Connection& c, Index v, const Point& direction, double weight, Sense sense) {
+  const double out = dot(direction, c.normal[at(v)]);
+  return {v, in_sense(c, v, direction, sense), weight * std::max(0.0, 1 - out * out)};
+}
+
+}  // namespace
+
 std::vector<Guide> axis_guides(const Connection& c, const Point& axis, double weight, Sense sense) {
   if (!(length(axis) > 0)) throw Error(Fault::usage, "the axis has no direction; give a vector other than 0,0,0");
   std::vector<Guide> guides;
-  const Point a = unit(axis);
-  for (Index v = 0; v < c.topology.vertex_count; ++v) {
-    const double out = dot(a, c.normal[at(v)]);
-    guides.push_back({v, in_sense(c, v, a, sense), weight * std::max(0.0, 1 - out * out)});
-  }
+  for (Index v = 0; v < c.topology.vertex_count; ++v)
+    guides.push_back(tangential_guide(c, v, unit(axis), weight, sense));
+  return guides;
+}
+
+std::vector<Guide> centre_guides(const Connection& c, const std::vector<Point>& points, const Point& centre,
+                                 double weight, Sense sense) {
+  std::vector<Guide> guides;
+  for (Index v = 0; v < c.topology.vertex_count; ++v)
+    if (const Point away = difference(points[at(v)], centre); length(away) > 0)
+      guides.push_back(tangential_guide(c, v, unit(away), weight, sense));
   return guides;
 }
 
@@ -220,6 +236,7 @@ std::vector<Guide> find_guides(const FieldWish& wish, const Connection& c, const
   std::vector<Guide> guides;
   const auto add = [&](const std::vector<Guide>& more) { guides.insert(guides.end(), more.begin(), more.end()); };
   if (wish.axis) add(axis_guides(c, *wish.axis, weight, sense));
+  if (wish.centre) add(centre_guides(c, points, *wish.centre, weight, sense));
   if (wish.curvature) {
     const double mean = diagonal / 4;  // a typical radius: its bends count with the full weight
     add(curvature_guides(c, loop_discretisation(c.topology), points, weight * mean * mean, sense));

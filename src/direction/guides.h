@@ -19,6 +19,10 @@ std::vector<Guide> stroke_guides(const Connection& connection, const std::vector
 /// the squared sine of its angle to the normal elsewhere. Error(Fault::usage) for a vector of length 0.
 std::vector<Guide> axis_guides(const Connection& connection, const Point& axis, double weight, Sense sense);
 
+/// Every vertex follows the tangential part of its way from a place, likewise weighted.
+std::vector<Guide> centre_guides(const Connection& connection, const std::vector<Point>& points, const Point& centre,
+                                 double weight, Sense sense);
+
 /// Every vertex follows the direction of the larger principal curvature (along) or the smaller (across), with the
 /// weight strength (k1 - k2)^2: strong where the surface has a direction, none where it is round or flat.
 std::vector<Guide> curvature_guides(const Connection& connection, const Discretisation& discretisation,
@@ -41,10 +45,11 @@ inline constexpr double default_field_smoothing = 0.05;
 /// What a field is to follow; all together, or nothing for the smoothest field.
 struct FieldWish {
   std::optional<Point> axis;
+  std::optional<Point> centre;  ///< [world]
   bool curvature = false;
   std::vector<Index> from, to;  ///< the harmonic function that is 0 at the first and 1 at the others
   std::vector<std::vector<Point>> strokes;
-  bool across = false;  ///< the axis, the curvature or the gradient
+  bool across = false;  ///< all but strokes
   double smooth = 0;    ///< length over which wishes, strokes excepted, are smoothed [world]
 };
 

@@ -3,7 +3,7 @@
 namespace pelage {
 
 std::span<const Method* const> methods() {
-  static constexpr const Method* all[] = {&remeshed_method, &loop_method, &linear_method};
+  static constexpr const Method* all[] = {&remeshed_method, &loop_method, &linear_method, &grid_method, &mask_method};
   return all;
 }
 

@@ -36,17 +36,18 @@ Point mean_line(const Tensor& t, const Point& n) {
   return turned(e, f, std::atan2(2 * ef, ee - ff) / 2);
 }
 
-Tensor tensor(const Point& d, const Point& normal, double along, double across) {
-  Tensor t = line_tensor(d);
-  const Tensor other = line_tensor(cross(normal, d));
-  for (std::size_t k = 0; k < 6; ++k) t[k] = along * along * t[k] + across * across * other[k];
-  return t;
-}
-
 }  // namespace
 
 Tensor line_tensor(const Point& d) {
   return {d[0] * d[0], d[0] * d[1], d[0] * d[2], d[1] * d[1], d[1] * d[2], d[2] * d[2]};
+}
+
+Tensor surface_tensor(const Tensor& mean, const Point& normal, double theta, double a1, double a2) {
+  const Point line = mean_line(mean, normal), d = turned(line, cross(normal, line), theta);
+  Tensor t = line_tensor(d);
+  const Tensor other = line_tensor(cross(normal, d));
+  for (std::size_t k = 0; k < 6; ++k) t[k] = a1 * a1 * t[k] + a2 * a2 * other[k];
+  return t;
 }
 
 std::vector<Tensor> quadrature_tensors(const Discretisation& d, const std::vector<Point>& control,
@@ -63,8 +64,7 @@ std::vector<Tensor> quadrature_tensors(const Discretisation& d, const std::vecto
         for (std::size_t corner = 0; corner < 3; ++corner)
           for (std::size_t i = 0; i < 6; ++i)
             mean[i] += std::array{1 - v - w, v, w}[corner] * lines[at(d.topology->triangles[e][corner])][i];
-        const Point line = mean_line(mean, normal[q]);
-        result[q] = tensor(turned(line, cross(normal[q], line), rates.theta[q]), normal[q], rates.a1[q], rates.a2[q]);
+        result[q] = surface_tensor(mean, normal[q], rates.theta[q], rates.a1[q], rates.a2[q]);
       }
     }
   });

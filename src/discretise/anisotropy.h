@@ -11,6 +11,10 @@ namespace pelage {
 /// d d', by which a line of either sense is known.
 Tensor line_tensor(const Point& d);
 
+/// T = a1^2 d d' + a2^2 e e' on a surface with this normal: d is the tangent line nearest to a mean of lines, turned by
+/// theta counter-clockwise seen from outside, and e is across it.
+Tensor surface_tensor(const Tensor& mean_of_lines, const Point& normal, double theta, double a1, double a2);
+
 /// T = a1^2 d d' + a2^2 n n' at the quadrature points, with d at the angle theta from the field, counter-clockwise seen
 /// from outside. `lines`: at the vertices of the discretisation; `rates`: at its quadrature points.
 std::vector<Tensor> quadrature_tensors(const Discretisation& discretisation, const std::vector<Point>& control,

@@ -1,11 +1,5 @@
 #include "discretise/assembly.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-
-#include "base/parallel.h"
 #include "discretise/metric.h"
 
 // One more version of a function for processors with AVX2, chosen when the program starts. Multiplications and
@@ -19,31 +13,9 @@
 
 namespace pelage {
 
-/// Elements that contain each basis function, with its local number there.
-struct FunctionElements {
-  std::vector<std::int64_t> start;
-  std::vector<std::pair<Index, Index>> element;  // element, local number; elements ascending
-};
-
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-FunctionElements function_elements(const Discretisation& d) {
-  FunctionElements result;
-  result.start.assign(at(d.unknowns) + 1, 0);
-  for (Index f : d.function) ++result.start[at(f) + 1];
-  for (std::size_t i = 1; i < result.start.size(); ++i) result.start[i] += result.start[i - 1];
-  result.element.resize(d.function.size());
-  std::vector<std::int64_t> cursor(result.start.begin(), result.start.end() - 1);
-  for (std::size_t e = 0; e < d.elements(); ++e)
-    for (std::int64_t k = d.first_function[e]; k < d.first_function[e + 1]; ++k) {
-      const Index f = d.function[static_cast<std::size_t>(k)];
-      result.element[static_cast<std::size_t>(cursor[at(f)]++)] = {static_cast<Index>(e),
-                                                                   static_cast<Index>(k - d.first_function[e])};
-    }
-  return result;
-}
 
 /// weight * area * G^-1 [x_v x_w]' T [x_v x_w] G^-1.
 Form gradient_form(const Metric& m, double weight, const Tensor& t) {
@@ -160,152 +132,8 @@ void stiffness_matrix(const ElementClass& c, Scratch& scratch, double* out) {
 
 }  // namespace
 
-namespace {
-
-/// Do 16 bits number the entries of every row? The matrices that meet in a row bound its length.
-bool rows_are_short(const Discretisation& d, const FunctionElements& incident) {
-  constexpr std::int64_t longest = std::int64_t{std::numeric_limits<std::uint16_t>::max()} + 1;
-  if (d.unknowns <= longest) return true;
-  for (std::size_t row = 0; row + 1 < incident.start.size(); ++row) {
-    std::int64_t length = 0;
-    for (auto k = incident.start[row]; k < incident.start[row + 1]; ++k) {
-      const std::size_t e = at(incident.element[static_cast<std::size_t>(k)].first);
-      length += d.first_function[e + 1] - d.first_function[e];
-    }
-    if (length > longest) return false;
-  }
-  return true;
-}
-
-}  // namespace
-
-template <class Offset>
-void Assembler::build_rows(Index begin, Index end, const FunctionElements& incident, SparsePattern& part,
-                           std::vector<Offset>& offset) const {
-  std::vector<Index> rank(at(d_.unknowns), -1);  // of a column in the current row
-  std::vector<Index> columns;
-  for (Index row = begin; row < end; ++row) {
-    columns.clear();
-    const auto first = incident.start[at(row)], last = incident.start[at(row) + 1];
-    auto for_each_column = [&](auto visit) {
-      for (auto k = first; k < last; ++k) {
-        const auto [e, local] = incident.element[static_cast<std::size_t>(k)];
-        for (auto c = d_.first_function[at(e)]; c < d_.first_function[at(e) + 1]; ++c)
-          visit(d_.function[static_cast<std::size_t>(c)], at(e), local, c - d_.first_function[at(e)]);
-      }
-    };
-    for_each_column([&](Index column, std::size_t, Index, std::int64_t) {
-      if (rank[at(column)] == -1) columns.push_back(column);
-      rank[at(column)] = 0;
-    });
-    std::sort(columns.begin(), columns.end());
-    for (std::size_t k = 0; k < columns.size(); ++k) rank[at(columns[k])] = static_cast<Index>(k);
-    for_each_column([&](Index column, std::size_t e, Index local, std::int64_t other) {
-      const std::int64_t n = d_.first_function[e + 1] - d_.first_function[e];
-      offset[static_cast<std::size_t>(matrix_start_[e] + local * n + other)] = static_cast<Offset>(rank[at(column)]);
-    });
-    for (Index column : columns) rank[at(column)] = -1;
-    part.column.insert(part.column.end(), columns.begin(), columns.end());
-    part.start.push_back(static_cast<std::int64_t>(part.column.size()));
-  }
-}
-
-Assembler::Assembler(const Discretisation& discretisation) : d_(discretisation) {
-  const FunctionElements incident = function_elements(d_);
-  matrix_start_.push_back(0);
-  for (std::size_t e = 0; e < d_.elements(); ++e) {
-    const std::int64_t n = d_.first_function[e + 1] - d_.first_function[e];
-    matrix_start_.push_back(matrix_start_.back() + n * n);
-  }
-  if (!rows_are_short(d_, incident)) offset_.emplace<std::vector<std::uint32_t>>();
-  std::visit([&](auto& offset) { build(incident, offset); }, offset_);
-}
-
-template <class Offset>
-void Assembler::build(const FunctionElements& incident, std::vector<Offset>& offset) {
-  offset.resize(static_cast<std::size_t>(matrix_start_.back()));
-  const auto parts_count = static_cast<std::size_t>(concurrency());
-  std::vector<SparsePattern> parts(parts_count);
-  const auto rows_per_part = static_cast<Index>((at(d_.unknowns) + parts_count - 1) / parts_count);
-  parallel_chunks(parts_count, [&](std::size_t p) {
-    const Index begin = std::min(d_.unknowns, static_cast<Index>(p) * rows_per_part);
-    build_rows(begin, std::min(d_.unknowns, begin + rows_per_part), incident, parts[p], offset);
-  });
-  auto pattern = std::make_shared<SparsePattern>();
-  pattern->rows = pattern->columns = d_.unknowns;
-  for (const SparsePattern& part : parts) {
-    const auto base = static_cast<std::int64_t>(pattern->column.size());
-    for (std::size_t r = 1; r < part.start.size(); ++r) pattern->start.push_back(base + part.start[r]);
-    pattern->column.insert(pattern->column.end(), part.column.begin(), part.column.end());
-  }
-  pattern_ = std::move(pattern);
-}
-
-namespace {
-
-/// Adds the rows of one element's matrices that belong to `owner`.
-template <std::size_t count, class Offset>
-void add_rows(const std::array<const double*, count>& matrix, const Offset* offset, const Index* function,
-              std::size_t n, const SparsePattern& p, std::size_t owner, std::size_t owners,
-              std::array<SparseMatrix, count>& result) {
-  constexpr std::size_t row_block = 64;  // rows are dealt to the threads in blocks, so that near rows stay together
-  for (std::size_t i = 0; i < n; ++i) {
-    if (at(function[i]) / row_block % owners != owner) continue;
-    const auto start = p.start[at(function[i])];
-    for (std::size_t k = 0; k < count; ++k) {
-      double* row = result[k].value.data() + start;
-      for (std::size_t j = 0; j < n; ++j) row[offset[i * n + j]] += matrix[k][i * n + j];
-    }
-  }
-}
-
-}  // namespace
-
-template <std::size_t count, class ElementMatrices>
-std::array<SparseMatrix, count> Assembler::assemble(const ElementMatrices& element_matrices) const {
-  std::array<SparseMatrix, count> result;
-  for (SparseMatrix& matrix : result) matrix = zeros(pattern_);
-  // Element matrices are kept for one chunk at a time: 16 MB for regular Loop elements.
-  constexpr std::size_t chunk = (1 << 14) / count;
-  const auto owners = static_cast<std::size_t>(concurrency());
-  std::array<std::vector<double>, count> buffer;
-  for (std::size_t first = 0; first < d_.elements(); first += chunk) {
-    const std::size_t last = std::min(d_.elements(), first + chunk);
-    for (auto& b : buffer) b.resize(static_cast<std::size_t>(matrix_start_[last] - matrix_start_[first]));
-    parallel_for(
-        last - first,
-        [&](std::size_t begin, std::size_t end) {
-          Scratch scratch;
-          std::array<double*, count> out;
-          for (std::size_t e = first + begin; e < first + end; ++e) {
-            for (std::size_t k = 0; k < count; ++k) {
-              out[k] = buffer[k].data() + (matrix_start_[e] - matrix_start_[first]);
-              std::fill_n(out[k], matrix_start_[e + 1] - matrix_start_[e], 0.0);
-            }
-            element_matrices(e, scratch, out);
-          }
-        },
-        256);
-    parallel_chunks(owners, [&](std::size_t owner) {
-      std::visit(
-          [&](const auto& offset) {
-            std::array<const double*, count> matrix;
-            for (std::size_t e = first; e < last; ++e) {
-              for (std::size_t k = 0; k < count; ++k)
-                matrix[k] = buffer[k].data() + (matrix_start_[e] - matrix_start_[first]);
-              add_rows(matrix, offset.data() + matrix_start_[e], d_.function.data() + d_.first_function[e],
-                       static_cast<std::size_t>(d_.first_function[e + 1] - d_.first_function[e]), *pattern_, owner,
-                       owners, result);
-            }
-          },
-          offset_);
-    });
-  }
-  return result;
-}
-
 SparseMatrix Assembler::mass(const std::vector<Point>& control, const std::vector<double>& factor) const {
-  return std::move(assemble<1>([&](std::size_t e, Scratch& scratch, const std::array<double*, 1>& out) {
+  return std::move(matrices_.sum<1, Scratch>([&](std::size_t e, Scratch& scratch, const std::array<double*, 1>& out) {
     const ElementClass& c = d_.classes[at(d_.element_class[e])];
     scratch.fit(c);
     for (Index q = 0; q < c.points(); ++q) {
@@ -319,7 +147,7 @@ SparseMatrix Assembler::mass(const std::vector<Point>& control, const std::vecto
 AssembledMatrices Assembler::mass_and_stiffness(const std::vector<Point>& control) const {
   AssembledMatrices result;
   result.area.resize(d_.elements());
-  auto matrices = assemble<2>([&](std::size_t e, Scratch& scratch, const std::array<double*, 2>& out) {
+  auto matrices = matrices_.sum<2, Scratch>([&](std::size_t e, Scratch& scratch, const std::array<double*, 2>& out) {
     const ElementClass& c = d_.classes[at(d_.element_class[e])];
     scratch.fit(c);
     double area = 0;
@@ -339,7 +167,7 @@ AssembledMatrices Assembler::mass_and_stiffness(const std::vector<Point>& contro
 }
 
 SparseMatrix Assembler::stiffness(const std::vector<Point>& control, const std::vector<double>& factor) const {
-  return std::move(assemble<1>([&](std::size_t e, Scratch& scratch, const std::array<double*, 1>& out) {
+  return std::move(matrices_.sum<1, Scratch>([&](std::size_t e, Scratch& scratch, const std::array<double*, 1>& out) {
     const ElementClass& c = d_.classes[at(d_.element_class[e])];
     scratch.fit(c);
     for (Index q = 0; q < c.points(); ++q) {
@@ -352,7 +180,7 @@ SparseMatrix Assembler::stiffness(const std::vector<Point>& control, const std::
 }
 
 SparseMatrix Assembler::stiffness(const std::vector<Point>& control, const std::vector<Tensor>& tensor) const {
-  return std::move(assemble<1>([&](std::size_t e, Scratch& scratch, const std::array<double*, 1>& out) {
+  return std::move(matrices_.sum<1, Scratch>([&](std::size_t e, Scratch& scratch, const std::array<double*, 1>& out) {
     const ElementClass& c = d_.classes[at(d_.element_class[e])];
     scratch.fit(c);
     for (Index q = 0; q < c.points(); ++q)

@@ -1,15 +1,11 @@
 #pragma once
 // Mass, stiffness and load for any discretisation: M = B' W B, K(D) = G' W D G, load = B' W f, with B the basis
 // functions and G their surface gradients at the quadrature points and W the quadrature weights times the area element.
-//
-// Parallel and deterministic: element matrices are computed in any order, every row is summed in the order of elements.
 
-#include <functional>
-#include <optional>
-#include <variant>
 #include <vector>
 
 #include "discretise/discretisation.h"
+#include "discretise/element_matrices.h"
 #include "pelage/triangle_mesh.h"
 
 namespace pelage {
@@ -24,14 +20,13 @@ struct AssembledMatrices {
 };
 
 /// Connectivity of the matrices of a discretisation, made once and used for every matrix.
-/// Memory: 2 bytes per entry of all element matrices (288 bytes per regular Loop triangle) besides the pattern; 4 if a
-/// row could be longer than 16 bits can count.
 class Assembler {
  public:
   /// Keeps a reference to the discretisation.
-  explicit Assembler(const Discretisation& discretisation);
+  explicit Assembler(const Discretisation& discretisation)
+      : d_(discretisation), matrices_(d_.unknowns, d_.first_function, d_.function) {}
 
-  const std::shared_ptr<const SparsePattern>& pattern() const { return pattern_; }
+  const std::shared_ptr<const SparsePattern>& pattern() const { return matrices_.pattern(); }
 
   /// M_ij = integral of c phi_i phi_j; `factor`: c at the quadrature points, empty for 1. Square: [area].
   SparseMatrix mass(const std::vector<Point>& control, const std::vector<double>& factor = {}) const;
@@ -46,20 +41,8 @@ class Assembler {
   SparseMatrix stiffness(const std::vector<Point>& control, const std::vector<Tensor>& tensor) const;
 
  private:
-  struct Kernel;
-  template <std::size_t count, class ElementMatrices>
-  std::array<SparseMatrix, count> assemble(const ElementMatrices& element_matrices) const;
-  template <class Offset>
-  void build(const struct FunctionElements& incident, std::vector<Offset>& offset);
-  template <class Offset>
-  void build_rows(Index begin, Index end, const FunctionElements& incident, SparsePattern& part,
-                  std::vector<Offset>& offset) const;
-
   const Discretisation& d_;
-  std::shared_ptr<const SparsePattern> pattern_;
-  std::vector<std::int64_t> matrix_start_;  ///< per element + 1: where its matrix begins in offset_
-  /// Of an element matrix' entry within its row of the pattern.
-  std::variant<std::vector<std::uint16_t>, std::vector<std::uint32_t>> offset_;
+  ElementMatrices matrices_;
 };
 
 /// out(i, j) += sum over q of left(q, i) right(q, j): the product of two tables of basis functions (points x

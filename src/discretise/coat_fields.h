@@ -7,6 +7,7 @@
 
 #include "discretise/method.h"
 #include "discretise/simulation_mesh.h"
+#include "pelage/atlas.h"
 #include "pelage/triangle_mesh.h"
 #include "shape/texture.h"
 
@@ -15,6 +16,8 @@ namespace pelage {
 /// Of one moment of a run; what does not change is shared with it.
 struct CoatFields {
   std::shared_ptr<const TriangleMesh> shape;   ///< the mesh that the user gave, repaired
+  std::shared_ptr<const Grid> grid;            ///< of which `shape` is the mesh, and there is no hierarchy; else null
+  std::shared_ptr<const Atlas> atlas;          ///< likewise
   std::vector<Point> points;                   ///< where its vertices are now
   std::vector<Texture> textures;               ///< that layers may read
   std::shared_ptr<const Hierarchy> hierarchy;  ///< of the shape; the fields live on its finest level, or on a
@@ -29,6 +32,7 @@ struct CoatFields {
   double wavelength = 0;                          ///< of the finest pattern [world units]
   double length_unit = 1;                         ///< world length of a model length unit of the last stage
   Point origin{};                                 ///< from where random fields of the last stage count
+  Point period{};                                 ///< of its smooth ones; 0: none
   std::uint64_t seed = 1;                         ///< of the last stage
 };
 

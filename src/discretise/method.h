@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "discretise/space.h"
+#include "pelage/atlas.h"
 #include "shape/hierarchy.h"
 
 namespace pelage {
@@ -29,11 +30,18 @@ struct Method {
   /// coarsest resolution, no faster than they do without anisotropy but for a percent of their rate (Loop) or for a few
   /// (linear, whose error is 17 % to begin with, and remeshed): tests/run/anisotropy_test.cpp measures it.
   double safe_anisotropy;
+  /// On the nodes of a grid (pelage/grid.h), for methods that are for grids; of these alone `make_space` is null.
+  std::shared_ptr<const Space> (*make_grid_space)(const Grid& grid) = nullptr;
+  /// On the nodes of patches that are sewn together; null: the method cannot do that.
+  std::shared_ptr<const Space> (*make_atlas_space)(const Atlas& atlas) = nullptr;
+  bool symmetric = true;  ///< its stiffness matrices are
 };
 
 extern const Method remeshed_method;
 extern const Method loop_method;
 extern const Method linear_method;
+extern const Method grid_method;
+extern const Method mask_method;
 
 /// Those that come with the program, the default first.
 std::span<const Method* const> methods();

@@ -166,6 +166,7 @@ SparseMatrix sampled_mass(const Sampling& s, const Vector& weight,
 Vector load(const Sampling& s, const Vector& f) { return s.test * Vector(s.weight.cwiseProduct(f)); }
 
 bool unknowns_are_samples(const Sampling& s) {
+  if (!s.values.pattern) return true;
   const SparsePattern& p = *s.values.pattern;
   for (std::int32_t i = 0; i < p.rows; ++i)
     if (p.start[at(i) + 1] != i + 1 || p.column[at(i)] != i || s.values.value[at(i)] != 1) return false;

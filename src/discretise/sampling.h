@@ -14,6 +14,7 @@ namespace pelage {
 /// Where samples lie: at the (limit) positions of the vertices, or at the quadrature points of the elements.
 enum class SampleRule { vertices, quadrature };
 
+/// On an even grid whose matrices nobody needs, values and test have no pattern: the unknowns are the samples.
 struct Sampling {
   SparseMatrix values;  ///< samples x unknowns
   SparseMatrix test;    ///< unknowns x samples

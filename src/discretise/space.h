@@ -4,9 +4,11 @@
 // the nodes or at quadrature points.
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "discretise/curvature.h"
+#include "discretise/lattice.h"
 #include "discretise/sampling.h"
 #include "react/kinetics.h"
 
@@ -28,6 +30,12 @@ struct PlaceGeometry {
 struct ElementPoint {
   std::vector<Index> function;  ///< numbers of unknowns
   RowMatrix jet;                ///< rows: value, d/dv, d/dw; columns as in `function`
+};
+
+/// Nodes on a part of the border, and the integrals of their functions over it [world^(dimension - 1)].
+struct SpaceBorder {
+  std::vector<Index> node;  ///< ascending
+  std::vector<double> weight;
 };
 
 /// Immutable, and shared by all stages of a run.
@@ -62,10 +70,17 @@ class Space {
   /// Attributes, given at the nodes, at the quadrature points.
   virtual std::vector<double> at_quadrature_points(const std::vector<double>& at_nodes) const = 0;
   /// Diffusion tensors at the quadrature points from lines d d' at the nodes and rates at the quadrature points:
-  /// T = a1^2 d d' + a2^2 n n' with d at the angle theta from the line, counter-clockwise seen from outside.
+  /// T = a1^2 d d' + a2^2 n n' with d at the angle theta from the line, counter-clockwise seen from outside. On grids
+  /// one line may stand for all nodes.
   virtual std::vector<Tensor> tensors(const std::vector<Tensor>& lines, const Kinetics::TensorField& rates) const = 0;
   /// Of a set of nodes (1 inside) those whose basis functions do not reach out of it.
   virtual std::vector<char> interior(std::vector<char> nodes) const = 0;
+
+  /// The border at an end of an axis of a grid: "xmin", "xmax", "ymin", ... Empty where there is none.
+  virtual SpaceBorder border(const std::string&) const { return {}; }
+
+  /// The even grid whose nodes the unknowns are, or null.
+  virtual const Lattice* lattice() const { return nullptr; }
 
   /// The control points, one per unknown [world units], and the space at other ones.
   virtual const std::vector<Point>& control() const = 0;

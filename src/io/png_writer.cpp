@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "base/srgb.h"
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
+#include "io/zlib.h"
 #include "pelage/io.h"
 
 namespace pelage {
@@ -20,12 +20,12 @@ namespace pelage {
 namespace {
 
 constexpr int channels = 3;
+constexpr char difference_to_the_left = 1;  // a filter
 
 /// One row: which filter was used, and then each byte less the one of the pixel to the left. That compresses as well as
 /// the best of all filters for each row.
 void filter_row(std::span<const float> rgb, const SrgbBytes& bytes, std::uint8_t* row) {
-  constexpr std::uint8_t difference_to_the_left = 1;
-  *row++ = difference_to_the_left;
+  *row++ = static_cast<std::uint8_t>(difference_to_the_left);
   std::uint8_t left[channels] = {};
   for (std::size_t i = 0; i < rgb.size(); ++i) {
     const std::uint8_t byte = bytes(rgb[i]);
@@ -34,11 +34,15 @@ void filter_row(std::span<const float> rgb, const SrgbBytes& bytes, std::uint8_t
   }
 }
 
-std::string filtered(const Image& image, const std::string& path) {
+void require_picture(const Image& image, const std::string& path) {
   assert(std::ssize(image.rgb) == std::ptrdiff_t{channels} * image.width * image.height);
   for (std::size_t i = 0; i < image.rgb.size(); ++i)
     if (!std::isfinite(image.rgb[i]))
       throw Error(Fault::numerics, "pixel " + std::to_string(i / 3) + " of the picture is not a finite number", {path});
+}
+
+std::string filtered(const Image& image, const std::string& path) {
+  require_picture(image, path);
   const std::size_t samples = std::size_t{channels} * static_cast<std::size_t>(image.width);
   std::string rows((samples + 1) * static_cast<std::size_t>(image.height), '\0');
   const SrgbBytes bytes;
@@ -52,16 +56,6 @@ std::string filtered(const Image& image, const std::string& path) {
       },
       at_a_time);
   return rows;
-}
-
-std::string compressed(const std::string& bytes, const std::string& path) {
-  constexpr int level = 3;  // of 12
-  const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
-      libdeflate_alloc_compressor(level), &libdeflate_free_compressor);
-  if (!compressor) throw Error(Fault::output, "the picture could not be compressed", {path});
-  std::string out(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
-  out.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), out.data(), out.size()));
-  return out;
 }
 
 /// PNG's numbers have their highest byte first.
@@ -80,30 +74,79 @@ void append_chunk(std::string& file, const char* name, const std::string& data) 
 /// The length of a chunk has 31 bits. In the worst case compression adds a few bytes in ten thousand.
 constexpr std::int64_t most_bytes = 1'400'000'000;
 
-/// `path` is for messages.
-std::string encode_png(const Image& image, const std::string& path) {
-  check_picture_size(image.width, image.height, path);
+/// Refuses what is too large to be written.
+void check_size(std::int64_t width, std::int64_t height, std::int64_t pixel_bytes, const std::string& path) {
+  const std::int64_t row = pixel_bytes * width + 1;  // one byte says how the row is filtered
+  if (height <= most_bytes / row) return;
+  throw Error(Fault::usage,
+              "a picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                  " pixels is too large; at most " + std::to_string(most_bytes / pixel_bytes / 1'000'000) +
+                  " million pixels can be written",
+              {path});
+}
+
+enum class ColorType : char { grey = 0, rgb = 2 };
+
+std::string file_of(int width, int height, char bits, ColorType type, const std::string& rows) {
   std::string header;
-  append_number(header, static_cast<std::size_t>(image.width));
-  append_number(header, static_cast<std::size_t>(image.height));
-  header += {8, 2, 0, 0, 0};  // bits per sample, RGB; the only compression and filters; not interlaced
+  append_number(header, static_cast<std::size_t>(width));
+  append_number(header, static_cast<std::size_t>(height));
+  header += {bits, static_cast<char>(type), 0, 0, 0};  // the only compression and filters; not interlaced
   std::string file = "\x89PNG\r\n\x1a\n";
   append_chunk(file, "IHDR", header);
-  append_chunk(file, "IDAT", compressed(filtered(image, path), path));
+  append_chunk(file, "IDAT", zlib_packed(rows));
   append_chunk(file, "IEND", "");
   return file;
 }
 
+/// `path` is for messages.
+std::string encode_png(const Image& image, const std::string& path) {
+  check_picture_size(image.width, image.height, path);
+  constexpr char bits = 8;
+  return file_of(image.width, image.height, bits, ColorType::rgb, filtered(image, path));
+}
+
+/// Rows of samples, each with its high byte first, less that of the pixel to the left.
+template <class Sample>
+std::string deep_rows(std::size_t row_samples, std::size_t rows, std::size_t pixel_samples, Sample&& sample) {
+  std::string bytes;
+  bytes.reserve((2 * row_samples + 1) * rows);
+  for (std::size_t y = 0; y < rows; ++y) {
+    bytes += difference_to_the_left;
+    for (std::size_t x = 0; x < row_samples; ++x) {
+      const std::uint16_t value = sample(y * row_samples + x);
+      const std::uint16_t left = x < pixel_samples ? 0 : sample(y * row_samples + x - pixel_samples);
+      bytes += static_cast<char>((value >> 8) - (left >> 8));
+      bytes += static_cast<char>((value & 0xff) - (left & 0xff));
+    }
+  }
+  return bytes;
+}
+
+constexpr char deep_bits = 16;
+
 }  // namespace
 
 void check_picture_size(std::int64_t width, std::int64_t height, const std::string& path) {
-  const std::int64_t row = 3 * width + 1;  // one byte says how the row is filtered
-  if (height <= most_bytes / row) return;
-  throw Error(Fault::usage,
-              "a picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                  " pixels is too large; at most " + std::to_string(most_bytes / 3'000'000) +
-                  " million pixels can be written",
-              {path});
+  check_size(width, height, channels, path);
+}
+
+std::string deep_png_bytes(const Image& image, const std::string& path) {
+  check_size(image.width, image.height, 2 * channels, path);
+  require_picture(image, path);
+  const auto samples = static_cast<std::size_t>(channels) * static_cast<std::size_t>(image.width);
+  return file_of(image.width, image.height, deep_bits, ColorType::rgb,
+                 deep_rows(samples, static_cast<std::size_t>(image.height), channels, [&](std::size_t i) {
+                   return static_cast<std::uint16_t>(std::lround(65535 * srgb_from_linear(image.rgb[i])));
+                 }));
+}
+
+std::string grey_png_bytes(int width, int height, const std::vector<std::uint16_t>& grey, const std::string& path) {
+  assert(std::ssize(grey) == std::ptrdiff_t{width} * height);
+  check_size(width, height, 2, path);
+  return file_of(width, height, deep_bits, ColorType::grey,
+                 deep_rows(static_cast<std::size_t>(width), static_cast<std::size_t>(height), 1,
+                           [&](std::size_t i) { return grey[i]; }));
 }
 
 std::string png_bytes(const Image& image) { return encode_png(image, ""); }

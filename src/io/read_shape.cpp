@@ -9,13 +9,16 @@
 
 #include "io/file_bytes.h"
 #include "io/gltf_reader.h"
+#include "io/grid_file.h"
 #include "io/obj_reader.h"
 #include "io/off_reader.h"
 #include "io/ply_reader.h"
 #include "io/stl_reader.h"
 #include "io/text_scanner.h"
 #include "pelage/io.h"
+#include "shape/builtin_grids.h"
 #include "shape/generators.h"
+#include "shape/grid.h"
 #include "shape/repair.h"
 
 namespace pelage {
@@ -43,7 +46,8 @@ const Format& format_of(const std::string& path) {
     if (extension == format.extension) return format;
     known += (known.empty() ? "" : " ") + std::string(format.extension);
   }
-  const std::vector<std::string> built_in = builtin_shape_names();
+  std::vector<std::string> built_in = builtin_shape_names();
+  for (const std::string& grid : builtin_grid_names()) built_in.push_back(grid);
   if (extension.empty())
     throw Error(Fault::input,
                 std::ranges::count(built_in, path) > 0
@@ -150,17 +154,34 @@ ShapeFile mended(RawShape raw, const std::string& path) {
 }  // namespace
 
 void check_shape_path(const std::string& path) {
+  if (is_builtin_grid(path)) return check_builtin_grid(path);
   if (is_builtin_shape(path)) return check_builtin_shape(path);
-  format_of(path);
+  if (!is_grid_file(path)) format_of(path);
   require_file(path);
 }
+
+bool is_grid_shape(const std::string& path) { return is_builtin_grid(path) || is_grid_file(path); }
 
 ShapeFile read_shape_bytes(std::string_view bytes, const std::string& name) {
   const Format& format = format_of(name);
   return mended(read_raw(format, bytes, name), name);
 }
 
+namespace {
+
+ShapeFile grid_shape(GridFile grid) {
+  ShapeFile file;
+  file.mesh = mesh_of(grid.grid);
+  file.findings = std::move(grid.findings);
+  file.grid = std::make_shared<const Grid>(std::move(grid.grid));
+  return file;
+}
+
+}  // namespace
+
 ShapeFile read_shape(const std::string& path) {
+  if (is_builtin_grid(path)) return grid_shape({builtin_grid(path), {}});
+  if (is_grid_file(path)) return grid_shape(read_grid(path));
   if (is_builtin_shape(path)) return {builtin_shape(path), {}, UpAxis::y, {}, nullptr};
   const Format& format = format_of(path);
   RawShape raw;

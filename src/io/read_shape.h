@@ -9,4 +9,7 @@ namespace pelage {
 /// opened: to be asked before anything is done.
 void check_shape_path(const std::string& path);
 
+/// Whether read_shape() would give a grid.
+bool is_grid_shape(const std::string& path);
+
 }  // namespace pelage

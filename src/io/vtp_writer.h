@@ -1,6 +1,5 @@
 #pragma once
-// VTK XML PolyData, for ParaView and VTK. The arrays are uncompressed base64 within the XML text, because
-// ParaView 5.11 fails on the appended form.
+// VTK XML PolyData, for ParaView and VTK.
 
 #include <string>
 
@@ -13,8 +12,5 @@ namespace pelage {
 /// TextureCoordinates, and every other attribute under its own name; but for colours with the type of the attribute.
 /// Labels of NAME are the field data NAME_labels. Vertices are split where attributes at corners differ.
 std::string encode_vtp(const PolygonMesh& mesh);
-
-/// Standard base64 with padding (RFC 4648, section 4), appended to `text`.
-void append_base64(std::string& text, const std::string& bytes);
 
 }  // namespace pelage

@@ -165,14 +165,6 @@ void require_finite(std::span<const double> values, const Attribute& a, bool (*f
   throw Error(Fault::numerics, name + " is " + number(*bad) + " at " + place + "; nothing was written");
 }
 
-void require_finite(const std::vector<Point>& points, const std::vector<Attribute>& attributes) {
-  static_assert(sizeof(Point) == 3 * sizeof(double));
-  const double* coordinates = points.empty() ? nullptr : points.front().data();
-  require_finite({coordinates, 3 * points.size()}, {"", 3, Domain::vertex, {}}, fits_float);
-  for (const Attribute& a : attributes)
-    require_finite(a.values, a, a.type == NumberType::float64 ? [](double x) { return std::isfinite(x); } : fits_float);
-}
-
 /// "a, b and 3 more".
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t most = 8;
@@ -218,7 +210,13 @@ bool has_polygons(const PolygonMesh& mesh) { return mesh.corners.size() != 3 * m
 
 std::string extension_of(const std::string& path) { return std::filesystem::path(path).extension().string(); }
 
-void require_finite(const PolygonMesh& mesh) { require_finite(mesh.points, mesh.attributes); }
+void require_finite(const std::vector<Point>& points, const std::vector<Attribute>& attributes) {
+  static_assert(sizeof(Point) == 3 * sizeof(double));
+  const double* coordinates = points.empty() ? nullptr : points.front().data();
+  require_finite({coordinates, 3 * points.size()}, {"", 3, Domain::vertex, {}}, fits_float);
+  for (const Attribute& a : attributes)
+    require_finite(a.values, a, a.type == NumberType::float64 ? [](double x) { return std::isfinite(x); } : fits_float);
+}
 
 std::vector<std::string> mesh_extensions() {
   std::vector<std::string> names;

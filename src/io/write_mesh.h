@@ -16,6 +16,7 @@ std::string extension_of(const std::string& path);
 
 /// Error(Fault::numerics) that names the first value of a point or attribute which is not a finite number
 /// within the range of 32-bit floats; attributes that are doubles need only be finite.
-void require_finite(const PolygonMesh& mesh);
+void require_finite(const std::vector<Point>& points, const std::vector<Attribute>& attributes);
+inline void require_finite(const PolygonMesh& mesh) { require_finite(mesh.points, mesh.attributes); }
 
 }  // namespace pelage

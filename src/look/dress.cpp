@@ -61,6 +61,12 @@ TriangleMesh dress(Tessellation t, const Paint& paint, const std::vector<char>& 
   return mesh;
 }
 
+Grid on_grid(Grid grid, const TriangleMesh& coat) {
+  grid.attributes = coat.attributes;
+  if (grid.even()) std::erase_if(grid.attributes, [](const Attribute& a) { return a.name == "normal"; });
+  return grid;
+}
+
 TriangleMesh dress(const CoatFields& fields, const Look& look) {
   const Paint paint = resolve_paint(look, fields.species);
   return dress(tessellate(fields, tessellation_request(look, paint)), paint, fields.uniform);

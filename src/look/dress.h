@@ -13,6 +13,9 @@ void rename_input(std::vector<Attribute>& attributes, const Paint& paint);
 /// it, and the attributes and links of the shape. `uniform` as in CoatFields.
 TriangleMesh dress(Tessellation tessellation, const Paint& paint, const std::vector<char>& uniform);
 
+/// What a coat on the mesh of a grid has at its vertices, as attributes of the grid; even grids need no normals.
+Grid on_grid(Grid grid, const TriangleMesh& coat);
+
 /// All at once. Error(Fault::usage) for an unknown species or ramp, faults in layers, or a detail that needs too many
 /// triangles.
 TriangleMesh dress(const CoatFields& fields, const Look& look);

@@ -64,6 +64,7 @@ Places places_of(const CoatSamples& s, const std::vector<std::string>& species) 
   }
   places.length_unit = s.length_unit;
   places.origin = s.origin;
+  places.period = s.period;
   return places;
 }
 

@@ -17,6 +17,7 @@ struct CoatSamples {
   std::vector<Point> drawn_at;              ///< initial places, of a surface that has moved; otherwise empty
   double length_unit = 1;                   ///< world length of a model length unit
   Point origin{};                           ///< from where random fields count
+  Point period{};                           ///< after which smooth ones repeat; 0: never
   std::uint64_t seed = 1;                   ///< of random fields
 
   std::size_t size() const { return position.size(); }

@@ -176,7 +176,33 @@ TessellationRequest tessellation_request(const Look& look, const Paint& paint) {
   return request;
 }
 
+namespace {
+
+/// The nodes of a grid or an atlas, whose cells are as fine as its colours can be.
+Tessellation nodes_of_shape(const CoatFields& fields, const TessellationRequest& request) {
+  if (request.flat || request.detail.value_or(0) > 0)
+    throw Error(Fault::usage, "a grid is coloured at its own nodes: leave flat, keep_shape and detail out");
+  Tessellation t;
+  t.triangles = fields.shape->triangles;
+  PlaceGeometry places = fields.space->geometry(SampleRule::vertices, request.curvature);
+  t.samples.position = std::move(places.position);
+  t.samples.normal = std::move(places.normal);
+  t.samples.curvature = std::move(places.curvature);
+  t.samples.fields = fields.coefficients;
+  t.attributes = kept_attributes(fields.shape->attributes);
+  t.metres_per_unit = fields.shape->metres_per_unit;
+  if (request.attributes) t.samples.attributes = layer_attributes(fields.textures, t);
+  t.samples.length_unit = fields.length_unit;
+  t.samples.origin = fields.origin;
+  t.samples.period = fields.period;
+  t.samples.seed = fields.seed;
+  return t;
+}
+
+}  // namespace
+
 Tessellation tessellate(const CoatFields& fields, const TessellationRequest& request) {
+  if (fields.grid || fields.atlas) return nodes_of_shape(fields, request);
   return Tessellator(fields, request).make();
 }
 

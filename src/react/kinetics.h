@@ -30,6 +30,7 @@ struct Places {
   std::map<std::string, std::span<const double>> attributes = {};  ///< vertex attributes of the mesh by name
   double length_unit = 1;                                          ///< world length of one model length unit
   Point origin{};  ///< from where random fields count: a shape takes them along when it is moved
+  Point period{};  ///< after which smooth random fields repeat along x, y and z; 0: never
   std::span<const DrawnField> drawn = {};  ///< random fields that places which move carry along; others are drawn where
                                            ///< the places are
   std::span<const double> mask = {};       ///< of the stage

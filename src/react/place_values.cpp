@@ -65,7 +65,8 @@ std::vector<double> random_values(const Symbol& symbol, const Places& places, st
   return tabulate(places.positions.size(), [&](std::size_t i) {
     Point p = places.positions[i];
     for (std::size_t k = 0; k < 3; ++k) p[k] -= places.origin[k];
-    if (symbol.kind == Symbol::Kind::noise) return smooth_noise(p, symbol.length * places.length_unit, stream);
+    if (symbol.kind == Symbol::Kind::noise)
+      return smooth_noise(p, symbol.length * places.length_unit, stream, places.period);
     const std::uint64_t here = place_seed(p, places.length_unit, stream);
     return symbol.kind == Symbol::Kind::uniform ? uniform(here, 0) : gaussian(here);
   });

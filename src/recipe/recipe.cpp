@@ -53,7 +53,7 @@ std::optional<Given<Length>> optional_length(const Value& table, const std::stri
   const Value* v = table.find(key);
   if (!v) return {};
   const bool plain = v->kind() == Value::Kind::number;
-  return Given<Length>{plain ? Length{v->number(), true} : parse_length(v->string(), v->where()), v->where()};
+  return Given<Length>{plain ? Length{v->number()} : parse_length(v->string(), v->where()), v->where()};
 }
 
 Stage::Setting read_parameter(const std::string& name, const Value& v) {
@@ -61,14 +61,35 @@ Stage::Setting read_parameter(const std::string& name, const Value& v) {
   return {name, 0, v.text_where(), v.string()};
 }
 
+Given<std::string> formula_or_number(const Value& v) {
+  return v.kind() == Value::Kind::number ? Given<std::string>{exact_number(v.number()), v.where()} : given_formula(v);
+}
+
 /// Formulas, or numbers, by species.
 std::vector<Stage::SpeciesFormula> read_species(const Value& table, const std::string& key) {
   std::vector<Stage::SpeciesFormula> list;
   const Value* formulas = table.find(key);
   if (!formulas) return list;
-  for (const auto& [name, v] : formulas->entries())
-    list.push_back({name, v->kind() == Value::Kind::number ? Given<std::string>{exact_number(v->number()), v->where()}
-                                                           : given_formula(*v)});
+  for (const auto& [name, v] : formulas->entries()) list.push_back({name, formula_or_number(*v)});
+  return list;
+}
+
+Stage::Border read_border(const std::string& side, const Location& side_at, const std::string& species,
+                          const Value& table) {
+  Stage::Border b{{side, side_at}, {species, table.where()}, {}, {}, {}};
+  for (const auto& [key, target] :
+       {std::pair{"value", &b.value}, std::pair{"flux", &b.flux}, std::pair{"loss", &b.loss}})
+    if (const Value* v = table.find(key)) *target = formula_or_number(*v);
+  if (b.value ? b.flux || b.loss : !b.flux && !b.loss)
+    throw Error(Fault::usage, "at a border a species has either a value, or a flux, a loss or both", table.where());
+  return b;
+}
+
+std::vector<Stage::Border> read_boundary(const Value& table) {
+  std::vector<Stage::Border> list;
+  for (const auto& [side, all] : table.entries())
+    for (const auto& [species, conditions] : all->entries())
+      list.push_back(read_border(side, all->where(), species, *conditions));
   return list;
 }
 
@@ -81,6 +102,7 @@ Directions read_directions(const Value& table) {
   Directions d;
   d.where = table.where();
   if (const Value* axis = table.find("axis")) d.axis = read_point(*axis, "an axis");
+  if (const Value* centre = table.find("centre")) d.centre = read_point(*centre, "a centre");
   if (const Value* v = table.find("curvature")) d.curvature = v->boolean();
   d.from = optional_formula(table, "from");
   d.to = optional_formula(table, "to");
@@ -92,8 +114,9 @@ Directions read_directions(const Value& table) {
   if (const Value* v = table.find("across")) d.across = v->boolean();
   if (d.from.has_value() != d.to.has_value())
     throw Error(Fault::usage, "directions along a gradient need both \"from\" and \"to\"", d.where);
-  if (!d.axis && !d.curvature && !d.from && d.strokes.empty())
-    throw Error(Fault::usage, "directions follow an axis, the curvature, the way from a place to another, or strokes",
+  if (!d.axis && !d.centre && !d.curvature && !d.from && d.strokes.empty())
+    throw Error(Fault::usage,
+                "directions follow an axis, a centre, the curvature, the way from a place to another, or strokes",
                 d.where);
   return d;
 }
@@ -115,6 +138,7 @@ Stage read_stage(const Value& table, std::size_t count) {
   s.mask = optional_formula(table, "mask");
   read_text(table, "inside", s.inside);
   s.pin = read_species(table, "pin");
+  if (const Value* v = table.find("boundary")) s.boundary = read_boundary(*v);
   read_text(table, "method", s.method);
   read_text(table, "stepper", s.stepper);
   s.step = positive(table, "step");
@@ -201,13 +225,16 @@ Length parse_length(const std::string& text, const Location& where) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const std::string unit(static_cast<const char*>(end), text.data() + text.size());
   const std::optional<double> metres = metres_in(unit);
-  if (error != std::errc{} || !std::isfinite(number) || number <= 0 || !(unit.empty() || unit == "u" || metres))
+  const bool known = unit.empty() || unit == "u" || unit == "px" || metres;
+  if (error != std::errc{} || !std::isfinite(number) || number <= 0 || !known)
     throw Error(Fault::usage,
                 "'" + text +
                     "' is not a length; give a fraction of the shape's diagonal (0.04) or a length with its unit "
-                    "(4mm, 2cm, 0.1m, 3in, 1ft, or 1.5u in units of the file)",
+                    "(4mm, 2cm, 0.1m, 3in, 1ft, or 1.5u in units of the file, or 24px in cells of a grid)",
                 where);
-  return metres ? Length{number * *metres, false, true} : Length{number, unit.empty()};
+  if (metres) return {number * *metres, Length::Unit::metres};
+  if (unit == "px") return {number, Length::Unit::cells};
+  return {number, unit.empty() ? Length::Unit::diagonals : Length::Unit::world};
 }
 
 Recipe parse_recipe(const std::string& text, const std::string& file) {

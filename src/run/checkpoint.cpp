@@ -28,6 +28,12 @@ void add_shape(Fingerprint& f, const TriangleMesh& shape) {
         .add_all(a.values);
 }
 
+/// What its mesh does not show.
+void add_grid(Fingerprint& f, const Grid& grid) {
+  for (std::size_t d = 0; d < 3; ++d)
+    f.add(static_cast<std::uint64_t>(grid.count[d])).add(std::uint64_t{grid.periodic[d]}).add_all(grid.period[d]);
+}
+
 void add_texture(Fingerprint& f, const Texture& t) {
   f.add(t.name).add(static_cast<std::uint64_t>(t.width)).add(static_cast<std::uint64_t>(t.height));
   for (const std::uint16_t value : *t.rgb) f.add(std::uint64_t{value});
@@ -42,10 +48,16 @@ void add_motion(Fingerprint& f, const SurfaceMotion& m) {
 
 void add_directions(Fingerprint& f, const FieldWish& wish) {
   if (wish.axis) f.add_all(*wish.axis);
+  if (wish.centre) f.add_all(*wish.centre);
   f.add(std::uint64_t{wish.curvature}).add(std::uint64_t{wish.across}).add(wish.smooth);
   for (const auto* marks : {&wish.from, &wish.to})
     for (const Index v : *marks) f.add(static_cast<std::uint64_t>(v));
   for (const auto& stroke : wish.strokes) add_points(f, stroke);
+}
+
+void add_border(Fingerprint& f, const BorderCondition& c) {
+  f.add(c.side).add(std::uint64_t{c.species});
+  for (const auto* formula : {&c.value, &c.flux, &c.loss}) f.add(*formula ? (*formula)->text : "");
 }
 
 void add_stage(Fingerprint& f, const StageProgram& s) {
@@ -53,6 +65,7 @@ void add_stage(Fingerprint& f, const StageProgram& s) {
   add_optional(f, s.step);
   f.add(s.suggested_step).add(std::uint64_t{s.excluded}).add(s.seed);
   add_optional(f, s.points);
+  for (const BorderCondition& c : s.borders) add_border(f, c);
   if (s.directions) add_directions(f, *s.directions);
 }
 
@@ -60,6 +73,7 @@ void add_stage(Fingerprint& f, const StageProgram& s) {
 
 std::uint64_t fingerprint(const Program& program) {
   Fingerprint f;
+  if (program.grid) add_grid(f, *program.grid);
   if (program.shape) add_shape(f, *program.shape);
   for (const Texture& t : program.textures) add_texture(f, t);
   f.add(program.method->name).add(std::uint64_t{program.interpolate}).add(program.edge);

@@ -137,8 +137,81 @@ std::vector<std::string> direction_attributes(const TriangleMesh& shape) {
   return names;
 }
 
-FollowedDirections followed_directions(const TriangleMesh& shape, const std::optional<FieldWish>& wish) {
-  const std::string smoothest = "the smoothest field of lines";
+namespace {
+
+/// From the node before along the first axis to the one behind.
+Point along_first_axis(const Grid& grid, std::int32_t node) {
+  if (grid.even()) return {1, 0, 0};
+  const std::int32_t n = grid.count[0], i = node % n;
+  const bool wraps_back = i == 0, wraps_on = i == n - 1;
+  const bool joined = grid.periodic[0];
+  Point before = grid.point(!wraps_back ? node - 1 : joined ? node + n - 1 : node);
+  Point behind = grid.point(!wraps_on ? node + 1 : joined ? node - n + 1 : node);
+  for (std::size_t d = 0; d < 3 && joined; ++d) {
+    if (wraps_back) before[d] -= grid.period[0][d];
+    if (wraps_on) behind[d] += grid.period[0][d];
+  }
+  return difference(behind, before);
+}
+
+/// Needs no surface to be followed.
+bool is_plain(const FieldWish& wish) {
+  return wish.axis.has_value() != wish.centre.has_value() && !wish.curvature && wish.from.empty() && wish.to.empty() &&
+         wish.strokes.empty();
+}
+
+/// What such a wish asks for at a place; at the centre itself any direction will do.
+Point plain_direction(const FieldWish& wish, const Point& place) {
+  if (wish.axis) return unit(*wish.axis);
+  const Point away = difference(place, *wish.centre);
+  return length(away) > 0 ? unit(away) : Point{1, 0, 0};
+}
+
+/// On an even grid; across an axis that is along the sheet.
+Point axis_on(const Grid& grid, const FieldWish& wish) {
+  Point along = *wish.axis;
+  if (grid.dimension() < 2) return {1, 0, 0};
+  if (grid.dimension() == 2) along = {along[0], along[1], 0};
+  if (!(length(along) > 0)) along = {1, 0, 0};
+  along = unit(along);
+  return wish.across && grid.dimension() == 2 ? Point{-along[1], along[0], 0} : along;
+}
+
+Point tangential(const Point& vector, const Point& normal) {
+  const double along = dot(vector, normal);
+  return unit({vector[0] - along * normal[0], vector[1] - along * normal[1], vector[2] - along * normal[2]});
+}
+
+}  // namespace
+
+std::vector<Tensor> node_lines(const Grid& grid, const TriangleMesh& shape, const std::optional<FieldWish>& wish) {
+  const bool sheet = grid.dimension() == 2;
+  std::vector<Tensor> lines;
+  if (!wish && component_names(scalar_attributes(shape)).empty()) {
+    if (grid.even()) return {line_tensor({1, 0, 0})};
+    for (std::int32_t v = 0; v < static_cast<std::int32_t>(grid.nodes()); ++v)
+      lines.push_back(line_tensor(unit(along_first_axis(grid, v))));
+    return lines;
+  }
+  if (wish && is_plain(*wish)) {
+    if (grid.even() && wish->axis) return {line_tensor(axis_on(grid, *wish))};
+    const std::vector<Point> normals = sheet ? vertex_normals(shape.triangles, shape.points) : std::vector<Point>{};
+    for (std::size_t v = 0; v < shape.points.size(); ++v) {
+      Point along = plain_direction(*wish, shape.points[v]);
+      if (sheet) along = tangential(along, normals[v]);
+      lines.push_back(line_tensor(wish->across && sheet ? cross(normals[v], along) : along));
+    }
+    return lines;
+  }
+  if (sheet) return vertex_lines(shape, wish, make_topology(shape.points.size(), shape.triangles));
+  if (wish) throw Error(Fault::usage, "directions of lines and blocks follow an axis; others need a surface");
+  const std::optional<GivenDirections> given = given_directions(shape);
+  for (const Point& d : given->vectors) lines.push_back(line_tensor(unit(d)));
+  return lines;
+}
+
+FollowedDirections followed_directions(const TriangleMesh& shape, const std::optional<FieldWish>& wish, bool of_grid) {
+  const std::string smoothest = of_grid ? "the first axis of the grid" : "the smoothest field of lines";
   if (wish) return {"the directions of the recipe" + not_followed(shape, 0), ""};
   const auto given = given_directions(shape);
   if (!given) return {smoothest, ""};

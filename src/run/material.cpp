@@ -31,7 +31,7 @@ VertexAttributes attributes_at_nodes(const Program& program, const StageProgram&
                                      const VertexAttributes& fields) {
   const std::vector<Symbol> symbols = place_symbols(stage.model);
   VertexAttributes attributes;
-  if (world.hierarchy()) attributes = attributes_of_mesh(program, symbols, world);
+  if (program.shape) attributes = attributes_of_mesh(program, symbols, world);
   for (const Symbol& s : symbols) {
     if (s.kind != Symbol::Kind::attribute) continue;
     if (const auto field = fields.find(s.name); field != fields.end()) attributes.insert(*field);
@@ -72,6 +72,15 @@ TriangleMesh shape_now(const Program& program, const World& world) {
   TriangleMesh shape = *program.shape;
   shape.points = world.points();
   return shape;
+}
+
+std::vector<Tensor> lines_at_nodes(const Program& program, const StageProgram& stage, const World& world) {
+  if (program.grid) return node_lines(*program.grid, *program.shape, stage.directions);
+  if (program.atlas)
+    return vertex_lines(*program.shape, stage.directions,
+                        make_topology(program.shape->points.size(), program.shape->triangles));
+  if (!world.hierarchy()) return {};  // a space that was given
+  return world.at_nodes(vertex_lines(shape_now(program, world), stage.directions, world.hierarchy()->topology(0)));
 }
 
 }  // namespace
@@ -118,6 +127,7 @@ Places PlaceFields::places(const Material::AtSamples& material, const StageProgr
   for (const auto& [name, values] : attributes) places.attributes[name] = values;
   places.length_unit = stage.length_unit;
   places.origin = stage.origin;
+  places.period = stage.period;
   places.drawn = material.drawn;
   places.mask = material.mask;
   return places;
@@ -138,9 +148,7 @@ Material make_material(const Program& program, const StageProgram& stage, const 
   material.at_nodes.drawn = drawn_once(world, stage, SampleRule::vertices);
   if (acts_at_quadrature_points(stage.model) || stage.stepper->samples == SampleRule::quadrature)
     material.at_quadrature_points.drawn = drawn_once(world, stage, SampleRule::quadrature);
-  if (stage.model.anisotropic() && world.hierarchy())
-    material.lines =
-        world.at_nodes(vertex_lines(shape_now(program, world), stage.directions, world.hierarchy()->topology(0)));
+  if (stage.model.anisotropic()) material.lines = lines_at_nodes(program, stage, world);
   if (stage.model.held()) add_mask(stage, space, material);
   return material;
 }

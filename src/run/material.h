@@ -11,7 +11,8 @@ namespace pelage {
 
 struct Material {
   VertexAttributes attributes;  ///< that the formulas of the stage read, at the nodes
-  std::vector<Tensor> lines;    ///< of the direction field at the nodes; empty when nothing is anisotropic
+  std::vector<Tensor> lines;    ///< of the direction field at the nodes, or one for all; empty when nothing is
+                                ///< anisotropic
 
   /// At samples that move.
   struct AtSamples {

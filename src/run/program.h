@@ -7,9 +7,12 @@
 
 #include "direction/guides.h"
 #include "discretise/method.h"
+#include "pelage/atlas.h"
 #include "pelage/fair.h"
+#include "pelage/grid.h"
 #include "pelage/triangle_mesh.h"
 #include "react/model.h"
+#include "run/borders.h"
 #include "shape/texture.h"
 #include "time/stepper.h"
 
@@ -34,13 +37,15 @@ struct StageProgram {
   bool size_known = true;      ///< false: `size` is not a wavelength but what the mesh has to resolve
   double length_unit = 0;      ///< world length of one model length unit: size / the model's wavelength
   Point origin{};              ///< of random fields: the middle of the shape's box
+  Point period{};              ///< of smooth ones along x, y and z, on periodic grids [world units]; 0: none
   std::optional<double> step;  ///< fixed step; else the stepper's choice
   double suggested_step = 0;
-  bool excluded = false;                ///< what the model holds is cut out: no flux passes its border
-  std::optional<FieldWish> directions;  ///< of anisotropic diffusion; default: attribute "direction", or the smoothest
-  std::string follows;                  ///< what its directions follow, for people; empty without anisotropic diffusion
-  std::optional<double> points;         ///< spacing of the random points that attribute(points) tells the distance to
-  double until = 0;                     ///< model time
+  bool excluded = false;                 ///< what the model holds is cut out: no flux passes its border
+  std::vector<BorderCondition> borders;  ///< of grids
+  std::optional<FieldWish> directions;   ///< of anisotropic diffusion; default: attribute "direction", or the smoothest
+  std::string follows;           ///< what its directions follow, for people; empty without anisotropic diffusion
+  std::optional<double> points;  ///< spacing of the random points that attribute(points) tells the distance to
+  double until = 0;              ///< model time
   std::optional<std::int64_t> steps;
   double stationary = 0;  ///< 0: never
   std::uint64_t seed = 1;
@@ -52,6 +57,8 @@ struct StageProgram {
 
 struct Program {
   std::shared_ptr<const TriangleMesh> shape;  ///< repaired control mesh; null where a run is given its space
+  std::shared_ptr<const Grid> grid;           ///< of which `shape` is the mesh; else null
+  std::shared_ptr<const Atlas> atlas;         ///< likewise
   std::vector<Texture> textures;              ///< laid on the shape by its "uv"
   const Method* method = &loop_method;
   bool interpolate = false;   ///< the surface goes through the vertices of the shape

@@ -38,9 +38,10 @@ constexpr double share_of_stable_step = 0.8;
 constexpr double amount_tolerance = 1e-12;
 
 /// Largest step that linear analysis allows [model time]; infinite where the error tells.
-double find_stable_step(const StageProgram& p, const System& system, const SparseMatrix& stiffness) {
-  if (p.stepper->adaptive) return std::numeric_limits<double>::infinity();
-  return largest_stable_step(p.model, *p.stepper, largest_k2(*system.mass, stiffness) * p.length_unit * p.length_unit);
+double find_stable_step(const StageProgram& p, const System& system, const Space& space) {
+  if (p.stepper->adaptive || !system.mass) return std::numeric_limits<double>::infinity();
+  const double k2 = largest_k2(*system.mass, *space.stiffness());
+  return largest_stable_step(p.model, *p.stepper, k2 * p.length_unit * p.length_unit);
 }
 
 /// Where the error does not see the limit of stability before it is passed, the step stays below the model's
@@ -75,6 +76,17 @@ void warn_of_anisotropy(const std::string& label, const Method& method, const St
                          number(ratio) + " times; above " + number(method.safe_anisotropy) + " times, with --method " +
                          std::string(method.name) + ", the mesh itself begins to show in the stripes");
   }
+}
+
+/// Steppers for even grids say themselves, before their first step, what they cannot grow.
+bool refuses(const StageProgram& p, const State& state, const StepReport& report) {
+  return p.stepper->lattice && state.step == 0 && !report.failure.empty() && !report.runaway;
+}
+
+void refuse(const StageProgram& p, const std::string& why, RunSummary& summary) {
+  summary.status = RunStatus::failed;
+  summary.message = "the stepper \"" + std::string(p.stepper->name) + "\" cannot grow \"" + p.model.name() +
+                    "\" here: " + why + "; leave the stepper out";
 }
 
 double magnitude(const Vector& u) { return u.size() > 0 ? std::max(std::abs(minimum(u)), std::abs(maximum(u))) : 0; }
@@ -116,12 +128,12 @@ std::unique_ptr<Run::Stage> Run::begin(std::size_t index, const World& world,
   const StageProgram& p = program_->stages[index];
   const std::string label = program_->stages.size() > 1 ? "stage " + p.name + ": " : "";
   report(progress_, label + "assembling", 0.4);
-  world.space().stiffness();
+  if (!p.stepper->matrix_free || !world.space().lattice()) world.space().stiffness();
   report(progress_, label + "sampling", 0.8);
   auto material =
       std::make_shared<const Material>(make_material(*program_, p, world, finished_fields(world.space(), finished)));
   StageSystem equations(p, world.shared_space(), material);
-  const double stable_step = find_stable_step(p, equations.system(), *world.space().stiffness());
+  const double stable_step = find_stable_step(p, equations.system(), world.space());
   const double step = first_step(p, stable_step);
   if (step > stable_step)
     warnings.push_back(label + "the step " + number(step) + " is beyond " + number(stable_step) +
@@ -175,6 +187,15 @@ const RunSummary& Run::summary() const { return now_->summary; }
 const System& Run::system() const { return now_->equations.system(); }
 const std::vector<Vector>& Run::coefficients() const { return now_->shown.empty() ? now_->state.now : now_->shown; }
 std::vector<Vector> Run::initial() const { return now_->equations.initial(); }
+
+void Run::start_from(std::vector<Vector> coefficients) {
+  now_->state.now = std::move(coefficients);
+  for (std::size_t i = 0; i < now_->state.now.size(); ++i) {
+    Vector& u = now_->state.now[i];
+    now_->first_magnitude[i] = std::max(now_->first_magnitude[i], magnitude(u));
+  }
+  show_followers();
+}
 
 double Run::stage_fraction() const {
   // Rest may come earlier or later than it did when it was measured.
@@ -231,6 +252,8 @@ const RunSummary& Run::advance(std::int64_t steps) {
         fail("the fields change so fast that the step is " + number(now_->step) + ", far below the model's of " +
                  number(p.suggested_step),
              {});
+    } else if (refuses(p, now_->state, report)) {
+      refuse(p, report.failure, now_->summary);
     } else if (p.adaptive() && request.dt > smallest_step_fraction * p.suggested_step) {
       ++now_->summary.rejected;
       now_->step = request.dt / 2;
@@ -294,8 +317,8 @@ void Run::keep_amounts(const SparseMatrix& mass_before) {
 }
 
 std::vector<double> Run::amounts() const {
-  const SparseMatrix& mass = *system().mass;
-  const Vector integral = mass * Vector::Ones(mass.rows());
+  const Vector integral =
+      system().mass ? Vector(*system().mass * Vector::Ones(system().mass->rows())) : system().sampling->weight;
   std::vector<double> amounts;
   for (const Vector& u : coefficients()) amounts.push_back(dot(integral, u));
   return amounts;
@@ -394,6 +417,9 @@ std::string Run::why_uniform() const {
 CoatFields Run::fields() const {
   CoatFields f;
   f.shape = program_->shape;
+  f.grid = program_->grid;
+  f.atlas = program_->atlas;
+  f.period = stage_program().period;
   f.points = world_.points();
   f.textures = program_->textures;
   f.hierarchy = world_.hierarchy();

@@ -61,6 +61,9 @@ class Run {
   /// The fields of all stages, to be dressed; of earlier ones "STAGE.SPECIES".
   CoatFields fields() const;
 
+  /// Replaces the initial state of a stage that has made no step by these coefficients, one field per species.
+  void start_from(std::vector<Vector> coefficients);
+
   /// Everything that changes, as bytes: a run of the same program that restores it continues with the same bits, on any
   /// machine that rounds the same.
   std::string checkpoint() const;

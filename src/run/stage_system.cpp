@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "discretise/anisotropy.h"
 #include "pelage/error.h"
+#include "run/constant_diffusion.h"
 #include "time/step_support.h"
 
 namespace pelage {
@@ -29,19 +30,33 @@ bool diffusion_varies_in_time(const Model& model, std::size_t i) {
 StageSystem::StageSystem(const StageProgram& stage, std::shared_ptr<const Space> space,
                          std::shared_ptr<const Material> material)
     : stage_(&stage), space_(std::move(space)), material_(std::move(material)) {
-  const SampledMass sampled = space_->sampled(stage.stepper->samples);
-  system_.mass = sampled.mass;
-  system_.sampling = sampled.sampling;
+  system_.lattice = space_->lattice();
   system_.held = material_->held;
+  const std::vector<Eigen::Matrix3d> tensors = constant_tensors(stage, *space_, *material_);
+  matrix_free_ = needs_no_matrices(stage, *space_, *material_, tensors);
+  if (matrix_free_)
+    system_.sampling = std::make_shared<const Sampling>(lattice_sampling(*system_.lattice));
+  else
+    sample_space();
   kinetics_ = kinetics_at(stage.stepper->samples, Kinetics::Parts::all);
-  if (acts_at_quadrature_points(stage.model)) {
+  if (acts_at_quadrature_points(stage.model) && !matrix_free_) {
     quadrature_kinetics_ = kinetics_at(SampleRule::quadrature, Kinetics::Parts::diffusion);
     quadrature_values_ = space_->quadrature_values();
   }
-  for (std::size_t i = 0; i < stage.model.species_count(); ++i) add_species(i);
+  for (std::size_t i = 0; i < stage.model.species_count(); ++i) {
+    add_species(i);
+    if (!tensors.empty()) system_.species[i].tensor = tensors[i];
+  }
   couple_species();
   add_reaction();
   add_gradients();
+  if (!stage.borders.empty()) add_borders();
+}
+
+void StageSystem::sample_space() {
+  const SampledMass sampled = space_->sampled(stage_->stepper->samples);
+  system_.mass = sampled.mass;
+  system_.sampling = sampled.sampling;
 }
 
 std::shared_ptr<const Kinetics> StageSystem::kinetics_at(SampleRule rule, Kinetics::Parts parts) const {
@@ -56,13 +71,18 @@ void StageSystem::add_species(std::size_t i) {
   s.name = model.species_name(i);
   s.lower = model.lower(i);
   s.upper = model.upper(i);
-  s.stiffness = space_->stiffness();
+  if (!matrix_free_) s.stiffness = space_->stiffness();
   s.diffusion = stage_->length_unit * stage_->length_unit;  // model length^2 to world length^2
   s.algebraic = model.algebraic(i);
   s.follows = model.follows(i);
   if (const auto constant = model.diffusion_constant(i)) s.diffusion *= *constant;
   system_.species.push_back(std::move(s));
-  if (has_own_stiffness(model, i)) fill_own_stiffness(i);
+  if (has_own_stiffness(model, i) && !matrix_free_) fill_own_stiffness(i);
+}
+
+double StageSystem::anisotropy(std::size_t i) const {
+  if (!matrix_free_) return largest_ratio(quadrature_kinetics_->anisotropy(i));
+  return largest_ratio(even_anisotropy(*stage_, i));
 }
 
 void StageSystem::couple_species() {
@@ -70,7 +90,7 @@ void StageSystem::couple_species() {
   const double scale = stage_->length_unit * stage_->length_unit;
   CoupledSpecies& c = system_.coupled;
   c.index = model.coupled();
-  c.stiffness = space_->stiffness();
+  if (!c.index.empty()) c.stiffness = space_->stiffness();
   const auto n = std::ssize(c.index);
   c.diffusion.resize(n, n);
   for (Eigen::Index k = 0; k < n; ++k) {
@@ -150,6 +170,23 @@ void StageSystem::add_gradients() {
     };
   if (!equations.fluxes.empty())
     system_.fluxes = FluxLoads{space_, quadrature_kinetics_, quadrature_values_, equations.fluxes, scale};
+}
+
+void StageSystem::add_borders() {
+  borders_ = std::make_shared<const Borders>(*stage_, *space_);
+  for (std::size_t i = 0; i < system_.species.size(); ++i) {
+    if (!borders_->gives_values(i)) continue;
+    system_.species[i].held = borders_->held(i, system_.held.get());
+    system_.set_values = [borders = borders_](std::size_t species, double t, Vector& u) {
+      borders->set_values(species, t, u);
+    };
+  }
+  if (borders_->any_inflow())
+    system_.fluxes = [borders = borders_, others = system_.fluxes](const std::vector<Vector>& u, double t) {
+      std::vector<Vector> loads = others ? others(u, t) : std::vector<Vector>(u.size());
+      borders->add_inflows(u, t, loads);
+      return loads;
+    };
 }
 
 /// The stiffness of a species whose diffusion varies (with the initial state) or has directions.
@@ -261,7 +298,7 @@ std::vector<Vector> StageSystem::initial() const {
   std::vector<Vector> coefficients;
   SolvedOnce solved;
   const auto solve = [&](const Vector& samples) {
-    return coefficients_from_samples(*system_.sampling, *system_.mass, samples);
+    return matrix_free_ ? samples : coefficients_from_samples(*system_.sampling, *system_.mass, samples);
   };
   for (std::size_t i = 0; i < stage_->model.species_count(); ++i) {
     Vector& u = coefficients.emplace_back(
@@ -272,6 +309,7 @@ std::vector<Vector> StageSystem::initial() const {
         if (material_->inside[static_cast<std::size_t>(k)]) u[k] = pin[k];
     }
     u = u.cwiseMax(stage_->model.lower(i)).cwiseMin(stage_->model.upper(i));
+    if (system_.set_values) system_.set_values(i, 0, u);
   }
   if (!solve_algebraic(system_, 0, coefficients, 1e-10).converged)
     throw Error(Fault::numerics,

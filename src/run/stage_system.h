@@ -25,7 +25,7 @@ class StageSystem {
   void update(const State& state);
 
   /// The largest ratio of the rates along and across of species i, which is anisotropic.
-  double anisotropy(std::size_t i) const { return largest_ratio(quadrature_kinetics_->anisotropy(i)); }
+  double anisotropy(std::size_t i) const;
 
  private:
   struct Coefficients {
@@ -33,10 +33,12 @@ class StageSystem {
   };
   static Coefficients evaluate_diffusion(const Kinetics& kinetics, const std::vector<Vector>& fields, double time);
   std::shared_ptr<const Kinetics> kinetics_at(SampleRule rule, Kinetics::Parts parts) const;
+  void sample_space();
   void add_species(std::size_t i);
   void couple_species();
   void add_reaction();
   void add_gradients();
+  void add_borders();
   void fill_own_stiffness(std::size_t i);
   void fill_variable(std::size_t i, const State* state);
   Vector samples_of(std::size_t i, const std::function<void(std::span<double>)>& fill) const;
@@ -51,6 +53,8 @@ class StageSystem {
   std::shared_ptr<const Kinetics>
       quadrature_kinetics_;  ///< at the quadrature points, for diffusion that varies and fluxes
   SparseMatrix quadrature_values_;
+  std::shared_ptr<const Borders> borders_;  ///< null without conditions
+  bool matrix_free_ = false;
   System system_;
 };
 

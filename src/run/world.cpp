@@ -16,6 +16,14 @@ World::World(std::shared_ptr<const Program> program, const Progress& progress) :
   const TriangleMesh& shape = *program_->shape;
   if (program_->motion.any()) surface_ = std::make_unique<MovingSurface>(shape, program_->motion);
   report(progress, "refining", 0);
+  if (program_->grid) {
+    space_ = program_->method->make_grid_space(*program_->grid);
+    return;
+  }
+  if (program_->atlas) {
+    space_ = program_->method->make_atlas_space(*program_->atlas);
+    return;
+  }
   auto hierarchy =
       std::make_shared<Hierarchy>(make_topology(shape.points.size(), shape.triangles), program_->method->refine);
   hierarchy_ = hierarchy;
@@ -35,6 +43,7 @@ World::World(std::shared_ptr<const Program> program, const Progress& progress) :
 }
 
 std::vector<double> World::at_nodes(std::vector<double> given, std::size_t components) const {
+  if (!hierarchy_) return given;
   return mesh_ ? mesh_->values(given, components)
                : hierarchy_->interpolated(std::move(given), components, 0, hierarchy_->finest());
 }
@@ -55,9 +64,10 @@ VertexAttributes World::at_nodes(const Texture& texture) const {
   Attribute uv = given;
   if (mesh_)
     uv = mesh_->values(given);
-  else
+  else if (hierarchy_)
     hierarchy_->interpolate(uv, 0, levels());
-  return texture_attributes(texture, topology().triangles, static_cast<std::size_t>(space_->unknowns()), uv);
+  return texture_attributes(texture, hierarchy_ ? topology().triangles : program_->shape->triangles,
+                            static_cast<std::size_t>(space_->unknowns()), uv);
 }
 
 std::vector<Point> World::coarse_control(std::vector<Point> points) const {

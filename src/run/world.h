@@ -22,10 +22,10 @@ class World {
 
   const Space& space() const { return *space_; }
   const std::shared_ptr<const Space>& shared_space() const { return space_; }
-  /// Null without a mesh.
+  /// Null on grids and atlases, and where a run is given its space.
   const std::shared_ptr<const Hierarchy>& hierarchy() const { return hierarchy_; }
   int levels() const { return hierarchy_ ? hierarchy_->finest() : 0; }
-  /// Triangles between the nodes of the space.
+  /// Triangles between the nodes of the space, which has a hierarchy.
   const Topology& topology() const { return mesh_ ? *mesh_->shared_topology() : hierarchy_->topology(levels()); }
   /// Null where the nodes of the space are the vertices of the finest level.
   const std::shared_ptr<const SimulationMesh>& mesh() const { return mesh_; }

@@ -12,7 +12,7 @@ namespace pelage {
 /// "1 face", "30 faces".
 inline std::string counted(std::size_t count, const std::string& noun) {
   if (count == 1) return "1 " + noun;
-  return std::to_string(count) + " " + (noun == "vertex" ? "vertices" : noun + "s");
+  return std::to_string(count) + " " + (noun == "vertex" ? "vertices" : noun + (noun == "patch" ? "es" : "s"));
 }
 
 /// A shape that cannot be used. Carries the element at fault, so that a reader can add file and line.

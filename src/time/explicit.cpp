@@ -33,7 +33,12 @@ class ForwardEuler final : public Stepper {
         axpby(-species.diffusion, flux_, 1, rhs_);
       }
       slope_.setZero(rhs_.size());
-      mass.solve(rhs_, slope_, system.held.get(), species.name, request.solver_tolerance, report);
+      if (system.set_values) {
+        given_ = state.now[i];
+        system.set_values(i, state.time + request.dt, given_);
+        slope_ = (given_ - state.now[i]) / request.dt;
+      }
+      mass.solve(rhs_, slope_, held_of(system, i), species.name, request.solver_tolerance, report);
       axpby(request.dt, slope_, 1, next_[i]);
     }
     if (!system.coupled.index.empty())
@@ -59,7 +64,7 @@ class ForwardEuler final : public Stepper {
   StepMatrix mass_;  ///< of all species but those with a varying C0
   std::vector<StepMatrix> own_mass_;
   std::vector<Vector> samples_, rates_, next_;
-  Vector rhs_, flux_, slope_;
+  Vector rhs_, flux_, slope_, given_;
 };
 
 /// Algebraic species follow without delay.
@@ -82,6 +87,7 @@ constexpr StepperKind explicit_euler = {
     .couples = true,
     .holds = true,
     .keeps_rates = false,
-    .amplification = amplification};
+    .amplification = amplification,
+    .gives_values = true};
 
 }  // namespace pelage

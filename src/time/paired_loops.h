@@ -157,14 +157,96 @@ PELAGE_TARGET void multiply(const SlicedMatrix& matrix, const float* values, con
     multiply_from<twin>(matrix, matrix.column.data(), 0, values, x, base, scale, first, last, out);
 }
 
+/// The number of a neighbour along an axis of n nodes: around the end, or as in a mirror on the last node.
+PELAGE_TARGET inline std::size_t neighbour(std::size_t i, int step, std::size_t n, bool periodic) {
+  if (step < 0 && i == 0) return periodic ? n - 1 : std::min<std::size_t>(1, n - 1);
+  if (step > 0 && i + 1 == n) return periodic ? 0 : (n > 1 ? n - 2 : 0);
+  return i + static_cast<std::size_t>(step);
+}
+
+using StencilWeights = float (PairedStencil::Row::*)[3][2];
+
+/// The node x of a row whose neighbours' rows begin at `from`.
+PELAGE_TARGET inline void stencil_node(const PairedStencil& s, StencilWeights weights, const float* const* from,
+                                       const float* own, const float* base, const float* scale, std::size_t x,
+                                       float* out) {
+  const std::size_t column[3] = {neighbour(x, -1, s.count[0], s.periodic[0]), x,
+                                 neighbour(x, 1, s.count[0], s.periodic[0])};
+  for (std::size_t lane = 0; lane < 2; ++lane) {
+    float sum = 0;
+    for (std::size_t r = 0; r < s.rows.size(); ++r)
+      for (std::size_t t = 0; t < 3; ++t)
+        sum += (s.rows[r].*weights)[t][lane] * (from[r][2 * column[t] + lane] - own[2 * x + lane]);
+    out[lane] = base ? base[lane] + scale[lane] * sum : scale[lane] * sum;
+  }
+}
+
+/// Nodes [begin, end) of the row of the grid to which `own` points.
+PELAGE_TARGET inline void stencil_row(const PairedStencil& s, StencilWeights weights, const float* const* from,
+                                      const float* own, const float* base, const float* scale, std::size_t begin,
+                                      std::size_t end, float* out) {
+  const std::size_t nx = s.count[0], rows = s.rows.size();
+  std::size_t x = begin;
+  const auto single = [&] {
+    stencil_node(s, weights, from, own, base ? base + 2 * (x - begin) : nullptr, scale, x, out + 2 * (x - begin));
+    ++x;
+  };
+  if (x == 0 && x < end) single();
+  Full factor;
+  for (std::size_t k = 0; k < lanes; ++k) factor[k] = scale[k % 2];
+  for (const std::size_t inner = std::min(end, nx - 1); x + lanes / 2 <= inner; x += lanes / 2) {
+    Full sum{}, mine;
+    load(own + 2 * x, mine);
+    for (std::size_t r = 0; r < rows; ++r)
+      for (std::size_t t = 0; t < 3; ++t) {
+        const float* const w = (s.rows[r].*weights)[t];
+        Full weight, other;
+        for (std::size_t k = 0; k < lanes; ++k) weight[k] = w[k % 2];
+        load(from[r] + 2 * (x + t) - 2, other);
+        sum += weight * (other - mine);
+      }
+    Full result = factor * sum;
+    if (base) {
+      Full b;
+      load(base + 2 * (x - begin), b);
+      result = b + result;
+    }
+    store(result, out + 2 * (x - begin));
+  }
+  while (x < end) single();
+}
+
+PELAGE_TARGET void multiply_stencil(const SlicedMatrix& matrix, StencilWeights weights, const float* x,
+                                    const float* base, const float* scale, std::size_t first, std::size_t last,
+                                    float* out) {
+  const PairedStencil& s = *matrix.stencil;
+  const std::size_t nx = s.count[0], ny = s.count[1], nz = s.count[2];
+  const std::size_t begin = first * slice_rows, stop = last * slice_rows, end = std::min(stop, matrix.rows);
+  for (std::size_t node = begin; node < end;) {
+    const std::size_t row = node / nx, column = node % nx, count = std::min(nx - column, end - node);
+    const float* from[9];
+    for (std::size_t r = 0; r < s.rows.size(); ++r)
+      from[r] = x + 2 * nx *
+                        (neighbour(row % ny, s.rows[r].j, ny, s.periodic[1]) +
+                         ny * neighbour(row / ny, s.rows[r].k, nz, s.periodic[2]));
+    stencil_row(s, weights, from, x + 2 * nx * row, base ? base + 2 * (node - begin) : nullptr, scale, column,
+                column + count, out + 2 * (node - begin));
+    node += count;
+  }
+  for (std::size_t k = 2 * (std::max(begin, end) - begin); k < 2 * (stop - begin); ++k) out[k] = 0;
+}
+
 PELAGE_TARGET void diffuse(const SlicedMatrix& matrix, const float* x, const float* base, const float* scale,
                            std::size_t first, std::size_t last, float* out) {
+  if (matrix.stencil) return multiply_stencil(matrix, &PairedStencil::Row::diffusion, x, base, scale, first, last, out);
   const auto times = matrix.twin ? multiply<true> : multiply<false>;
   times(matrix, matrix.diffusion.data(), x, base, scale, first, last, out);
 }
 
 PELAGE_TARGET void correct(const SlicedMatrix& matrix, const float* x, const float* base, const float* scale,
                            std::size_t first, std::size_t last, float* out) {
+  if (matrix.stencil)
+    return multiply_stencil(matrix, &PairedStencil::Row::correction, x, base, scale, first, last, out);
   multiply<false>(matrix, matrix.correction.data(), x, base, scale, first, last, out);
 }
 

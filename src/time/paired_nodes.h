@@ -2,11 +2,13 @@
 // Fields of two species at the nodes in single precision, interleaved (u0 v0 u1 v1 ...), so that one read serves both,
 // and the loops over them, compiled once per instruction set. All sets give the same bits.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,6 +41,20 @@ inline constexpr std::size_t slice_rows = 8;
 inline constexpr std::size_t node_step = 16;
 inline std::size_t padded(std::size_t nodes) { return (nodes + node_step - 1) / node_step * node_step; }
 
+/// Weights on an even grid for two species (discretise/lattice_stencil.h). The order in which neighbours are added is
+/// the same at all nodes, so that a field that is moved along a periodic axis gives the moved bits.
+struct PairedStencil {
+  std::array<std::size_t, 3> count{};
+  std::array<bool, 3> periodic{};
+  /// The neighbours in one row of the grid.
+  struct Row {
+    int j = 0, k = 0;            ///< steps to it along the second and the third axis
+    float diffusion[3][2] = {};  ///< [step along the first axis + 1][species]
+    float correction[3][2] = {};
+  };
+  std::vector<Row> rows;
+};
+
 /// Two matrices of one pattern whose rows sum to zero, so that only the entries beside the diagonal are kept and
 /// (A x)_i = sum_j a_ij (x_j - x_i) is exact where x is constant. Eight rows make a slice, as long as its longest row,
 /// and there are as many as padded(rows) needs: entry e of row 8 s + k is at 8 (start[s] + e) + k, filled up with
@@ -51,10 +67,12 @@ struct SlicedMatrix {
   AlignedVector<float>
       diffusion;  ///< -a L^-1 K with an area a, which makes it a number; with two K first those of the first, then of
                   ///< the second of a pair of species: entry e of row 8 s + k at 2 (8 (start[s] + e) + k)
-  bool twin = false;                ///< two K
-  AlignedVector<float> correction;  ///< E = I - L^-1 M; empty where M is diagonal
+  bool twin = false;                     ///< two K
+  AlignedVector<float> correction;       ///< E = I - L^-1 M; empty where M is diagonal
+  std::optional<PairedStencil> stencil;  ///< instead of start, columns and values
 
-  std::size_t slices() const { return start.size() - 1; }
+  bool corrects() const { return stencil || !correction.empty(); }
+  std::size_t slices() const { return stencil ? padded(rows) / slice_rows : start.size() - 1; }
 };
 
 /// `stiffness`: one K, or two. `lumped`: L. `area`: a. Rows of held nodes are zero. Of one size and pattern all.

@@ -27,6 +27,7 @@ class Sbdf2 final : public Stepper {
   static Scheme scheme(const State& state, double dt);
   void solve_coupled(const System& system, const State& state, const Scheme& s, const StepRequest& request,
                      StepReport& report);
+  static void extrapolate(const State& state, std::size_t species, double dt, Vector& guess);
   void first_guess(const System& system, const State& state, std::size_t species, double dt);
   void right_hand_side(const System& system, const Scheme& s, std::size_t species);
   static double early_error(const System& system, const State& state, const std::vector<Vector>& next);
@@ -134,7 +135,14 @@ double Sbdf2::error_estimate(const System& system, const State& state, const std
 void Sbdf2::first_guess(const System& system, const State& state, std::size_t i, double dt) {
   Vector& guess = next_[i];
   guess = state.now[i];
-  if (state.past.empty()) return;
+  if (!state.past.empty()) extrapolate(state, i, dt, guess);
+  if (const Held* held = held_of(system, i))
+    for (Eigen::Index k = 0; k < guess.size(); ++k)
+      if ((*held)[static_cast<std::size_t>(k)]) guess[k] = state.now[i][k];
+  if (system.set_values) system.set_values(i, state.time + dt, guess);
+}
+
+void Sbdf2::extrapolate(const State& state, std::size_t i, double dt, Vector& guess) {
   const double t1 = state.past_steps[0];
   if (state.past.size() < 2) {
     axpby(-dt / t1, state.past[0][i], 1 + dt / t1, guess);
@@ -143,9 +151,6 @@ void Sbdf2::first_guess(const System& system, const State& state, std::size_t i,
     axpby(-dt * (dt + t2) / (t1 * (t2 - t1)), state.past[0][i], (dt + t1) * (dt + t2) / (t1 * t2), guess);
     axpby(dt * (dt + t1) / (t2 * (t2 - t1)), state.past[1][i], 1, guess);
   }
-  if (!system.held) return;
-  for (Eigen::Index k = 0; k < guess.size(); ++k)
-    if ((*system.held)[static_cast<std::size_t>(k)]) guess[k] = state.now[i][k];
 }
 
 /// The rows of all coupled species, each divided by what stands before M u_i^(n+1).
@@ -208,8 +213,8 @@ StepReport Sbdf2::step(const System& system, State& state, const StepRequest& re
     matrices_[i].update(mass_of(system, i), s.alpha, species.stiffness, dt * species.diffusion);
     right_hand_side(system, s, i);
     first_guess(system, state, i, dt);
-    matrices_[i].solve(rhs_, next_[i], system.held.get(), species.name, request.solver_tolerance, report);
-    if (i < fluxes_.size() && fluxes_[i].size() > 0 && !system.held)
+    matrices_[i].solve(rhs_, next_[i], held_of(system, i), species.name, request.solver_tolerance, report);
+    if (i < fluxes_.size() && fluxes_[i].size() > 0 && !held_of(system, i))
       balance(*mass_of(system, i), s.alpha, rhs_, next_[i]);
   }
   if (!system.coupled.index.empty()) solve_coupled(system, state, s, request, report);
@@ -255,6 +260,8 @@ constexpr StepperKind sbdf2 = {.name = "sbdf2",
                                .amplification = amplification,
                                .tolerance = 1e-2,
                                .jump_tolerance = 1e-2,
-                               .dilutes = true};
+                               .dilutes = true,
+                               .gives_values = true,
+                               .symmetric = true};
 
 }  // namespace pelage

@@ -81,6 +81,7 @@ constexpr StepperKind semi_implicit = {
     .couples = false,
     .holds = false,
     .keeps_rates = false,
-    .amplification = amplification};
+    .amplification = amplification,
+    .symmetric = true};
 
 }  // namespace pelage

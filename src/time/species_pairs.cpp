@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "discretise/lattice_stencil.h"
 
 namespace pelage {
 
@@ -25,7 +26,69 @@ bool SpeciesPairs::unchanged(const System& system) const {
   });
 }
 
+namespace {
+
+/// For the two species of a pair; both diffusions in 1 / time.
+PairedStencil paired_stencil(const Lattice& lattice, const LatticeStencil& first, const LatticeStencil& second) {
+  PairedStencil s{lattice.count, lattice.periodic, {}};
+  for (int k = lattice.count[2] > 1 ? -1 : 0; k <= (lattice.count[2] > 1 ? 1 : 0); ++k)
+    for (int j = lattice.count[1] > 1 ? -1 : 0; j <= (lattice.count[1] > 1 ? 1 : 0); ++j) {
+      PairedStencil::Row& row = s.rows.emplace_back();
+      row.j = j;
+      row.k = k;
+      for (std::size_t t = 0; t < 3; ++t) {
+        const std::size_t n = t + static_cast<std::size_t>(3 * (j + 1) + 9 * (k + 1));
+        for (std::size_t lane = 0; lane < 2; ++lane) {
+          const LatticeStencil& of = lane == 0 ? first : second;
+          row.diffusion[t][lane] = static_cast<float>(of.diffusion[n]);
+          row.correction[t][lane] = static_cast<float>(of.correction[n]);
+        }
+      }
+    }
+  return s;
+}
+
+}  // namespace
+
+/// Without matrices: any two species share a pair.
+bool SpeciesPairs::update_lattice(const System& system) {
+  std::vector<Eigen::Matrix3d> tensors;
+  for (const Species& s : system.species) tensors.push_back(s.tensor.value_or(Eigen::Matrix3d::Zero()));
+  if (species_ == system.species.size() && lattice_ == *system.lattice && tensors_ == tensors) return false;
+  species_ = system.species.size();
+  lattice_ = *system.lattice;
+  tensors_ = std::move(tensors);
+  evolving_.clear();
+  pairs_.clear();
+  operators_.clear();
+  place_.assign(species_, 0);
+  for (std::size_t i = 0; i < species_; ++i) {
+    if (system.species[i].follows) continue;
+    if (pairs_.empty() || pairs_.back().count == 2) pairs_.emplace_back();
+    SpeciesPair& p = pairs_.back();
+    place_[i] = 2 * (pairs_.size() - 1) + p.count;
+    p.diffusion[p.count] = 1;
+    p.diffuses |= !tensors_[i].isZero(0);
+    p.species[p.count++] = i;
+    evolving_.push_back(i);
+  }
+  for (SpeciesPair& p : pairs_) {
+    const auto stencil = [&](std::size_t lane) {
+      return lattice_stencil(lattice_, lane < p.count ? tensors_[p.species[lane]] : Eigen::Matrix3d::Zero());
+    };
+    const LatticeStencil first = stencil(0), second = stencil(1);
+    Operator o;
+    o.sliced.rows = lattice_.nodes();
+    o.sliced.stencil = paired_stencil(lattice_, first, second);
+    o.radius = {largest_rate(first, sweeps_), largest_rate(second, sweeps_)};
+    p.matrix = operators_.size();
+    operators_.push_back(std::move(o));
+  }
+  return true;
+}
+
 bool SpeciesPairs::update(const System& system) {
+  if (!system.mass) return update_lattice(system);
   if (unchanged(system)) return false;
   species_ = system.species.size();
   held_ = system.held;
@@ -42,7 +105,8 @@ bool SpeciesPairs::update(const System& system) {
   std::vector<Operator> before = std::exchange(operators_, {});
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     for (std::size_t lane = 0; lane < pairs_[p].count; ++lane) place_[pairs_[p].species[lane]] = 2 * p + lane;
-    if (!pairs_[p].stiffness.empty()) pairs_[p].matrix = keep_operator(system, pairs_[p], before);
+    pairs_[p].diffuses = !pairs_[p].stiffness.empty();
+    if (pairs_[p].diffuses) pairs_[p].matrix = keep_operator(system, pairs_[p], before);
   }
   return true;
 }
@@ -107,7 +171,7 @@ std::size_t SpeciesPairs::keep_operator(const System& system, const SpeciesPair&
 double SpeciesPairs::radius(std::size_t species) const {
   const std::size_t lane = place_[species] % 2;
   const SpeciesPair& p = pairs_[place_[species] / 2];
-  return p.stiffness.empty() ? 0 : p.diffusion[lane] * operators_[p.matrix].radius[lane];
+  return !p.diffuses ? 0 : p.diffusion[lane] * operators_[p.matrix].radius[lane];
 }
 
 double SpeciesPairs::bytes() const {

@@ -16,6 +16,7 @@ struct SpeciesPair {
   std::array<float, 2> diffusion{};     ///< D / a: as the operator has it, a number, so that no unit is in the rounding
   std::vector<SharedMatrix> stiffness;  ///< none where nothing diffuses, one for both species, or one for each
   SharedMatrix mass;
+  bool diffuses = false;   ///< whether either does
   std::size_t matrix = 0;  ///< which of the operators, where something diffuses
 };
 
@@ -36,9 +37,9 @@ class SpeciesPairs {
   std::size_t place(std::size_t species) const { return place_[species]; }  ///< 2 pair + lane
   /// Null where nothing diffuses.
   const SlicedMatrix* matrix(std::size_t p) const {
-    return pairs_[p].stiffness.empty() ? nullptr : &operators_[pairs_[p].matrix].sliced;
+    return pairs_[p].diffuses ? &operators_[pairs_[p].matrix].sliced : nullptr;
   }
-  int sweeps(std::size_t p) const { return matrix(p) && !matrix(p)->correction.empty() ? sweeps_ : 0; }
+  int sweeps(std::size_t p) const { return matrix(p) && matrix(p)->corrects() ? sweeps_ : 0; }
   /// What the passes of one evaluation of all pairs read and write at least, without the reaction.
   double bytes() const;
   /// The largest eigenvalue of the diffusion of a species, from below [1/time].
@@ -53,6 +54,7 @@ class SpeciesPairs {
     std::array<double, 2> radius{};  ///< of either species, with D = a
   };
   bool unchanged(const System& system) const;
+  bool update_lattice(const System& system);
   void pair_alike(const System& system);
   void pair_rest();
   std::size_t keep_operator(const System& system, const SpeciesPair& pair, std::vector<Operator>& before);
@@ -67,6 +69,8 @@ class SpeciesPairs {
   std::shared_ptr<const Held> held_;
   std::size_t species_ = 0;
   double area_ = 1;  ///< a: the mean of a node
+  Lattice lattice_;  ///< without matrices, and the tensors of all species there
+  std::vector<Eigen::Matrix3d> tensors_;
 };
 
 }  // namespace pelage

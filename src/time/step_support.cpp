@@ -10,7 +10,11 @@ namespace pelage {
 
 void sample_fields(const System& system, const std::vector<Vector>& coefficients, std::vector<Vector>& samples) {
   samples.resize(coefficients.size());
-  for (std::size_t i = 0; i < coefficients.size(); ++i) apply(system.sampling->values, coefficients[i], samples[i]);
+  for (std::size_t i = 0; i < coefficients.size(); ++i)
+    if (system.mass)
+      apply(system.sampling->values, coefficients[i], samples[i]);
+    else
+      samples[i] = coefficients[i];
   if (system.add_gradients) system.add_gradients(coefficients, samples);
 }
 
@@ -38,7 +42,7 @@ void follow(const System& system, double t, std::vector<Vector>& coefficients) {
   evaluate_rates(system, samples, t, rates);
   for (std::size_t i = 0; i < coefficients.size(); ++i)
     if (system.species[i].follows)
-      coefficients[i] = coefficients_from_samples(*system.sampling, *system.mass, rates[i]);
+      coefficients[i] = system.mass ? coefficients_from_samples(*system.sampling, *system.mass, rates[i]) : rates[i];
 }
 
 SolveReport solve_algebraic(const System& system, double t, std::vector<Vector>& coefficients, double tolerance) {

@@ -62,7 +62,11 @@ struct StepperKind {
                                  ///< only the front is late, by part of a step
   bool any_step = false;         ///< stable at every step: its error estimate alone limits the step
   bool dilutes = false;          ///< of second order where amounts ride along with a surface that grows
+  bool lattice = false;          ///< only for systems on a lattice whose species have a Species::tensor
+  bool matrix_free = false;      ///< needs no matrices where a lattice and tensors are known
+  bool gives_values = false;     ///< heeds System::set_values and Species::held
   bool nodal = false;            ///< only for systems whose unknowns are the values at the samples
+  bool symmetric = false;        ///< solves for unknowns with stiffness matrices, which then have to be symmetric
 };
 
 extern const StepperKind sbdf2;           ///< second-order semi-implicit backward differences, variable step (Ruuth
@@ -72,6 +76,11 @@ extern const StepperKind semi_implicit;   ///< semi-implicit Euler, eqs. (14)-(1
 extern const StepperKind explicit_euler;  ///< forward Euler
 extern const StepperKind rkc2;  ///< second-order stabilised explicit Runge-Kutta-Chebyshev, in single precision
                                 ///< (Sommeijer, Shampine, Verwer 1997)
+
+// On even grids, of waves that spread and decay exactly:
+extern const StepperKind etd;               ///< exponential time differencing of third order (Cox, Matthews 2002)
+extern const StepperKind gaussian_stepper;  ///< convolution with Gaussians (Witkin, Kass 1991, eq. 12), of first order
+extern const StepperKind binary_stepper;    ///< convolution of bits (Witkin, Kass 1991, section 5): for threshold pairs
 
 /// Those that come with the program, the default first.
 std::span<const StepperKind* const> stepper_kinds();

@@ -8,10 +8,12 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "discretise/lattice.h"
 #include "discretise/sampling.h"
 #include "linalg/conjugate_gradient.h"
 #include "linalg/sparse.h"
@@ -51,7 +53,10 @@ struct Species {
   /// those of the system.
   SharedMatrix mass;
   SharedVector weight;
-  bool coupled = false;  ///< part of System::coupled, which then holds the diffusion instead
+  /// On a lattice, where the diffusion is the same everywhere: its tensor [length^2/time].
+  std::optional<Eigen::Matrix3d> tensor;
+  std::shared_ptr<const Held> held;  ///< coefficients that stay, or that System::set_values gives; null: System::held
+  bool coupled = false;              ///< part of System::coupled, which then holds the diffusion instead
   bool algebraic = false;
   bool follows = false;  ///< algebraic, and no step needs it: steppers leave it alone, see follow()
   double lower = -std::numeric_limits<double>::infinity();  ///< clamps of the coefficients after a step; as the basis
@@ -66,7 +71,10 @@ struct CoupledSpecies {
 };
 
 struct System {
-  SharedMatrix mass;  ///< = values' W values of `sampling`
+  const Lattice* lattice = nullptr;  ///< the even grid whose nodes the unknowns are; null: there is none
+  /// = values' W values of `sampling`; null where steppers go by the lattice alone: then there are no matrices, and
+  /// `sampling` has only its weights.
+  SharedMatrix mass;
   std::shared_ptr<const Sampling> sampling;
   std::vector<Species> species;
   CoupledSpecies coupled;
@@ -74,8 +82,11 @@ struct System {
   Reaction reaction;
   /// Appends what rates read behind the species, products of gradients, to the samples of all species; empty: nothing.
   std::function<void(const std::vector<Vector>& coefficients, std::vector<Vector>& samples)> add_gradients;
-  /// The loads of the fluxes at time t, which sum to 0: one field per species, empty where it has none. Empty: there
-  /// are none.
+  /// Puts the values that are given for a species at time t, at unknowns that are held, into its coefficients. Empty:
+  /// none are given.
+  std::function<void(std::size_t species, double t, Vector& coefficients)> set_values;
+  /// The loads of the fluxes at time t, which sum to what comes in at borders: one field per species, empty where it
+  /// has none. Empty: there are none.
   std::function<std::vector<Vector>(const std::vector<Vector>& coefficients, double t)> fluxes;
   /// Mass matrix weighted by a factor at the samples; only semi-implicit Euler needs it.
   std::function<SparseMatrix(const Vector& factor)> weighted_mass;
@@ -84,6 +95,11 @@ struct System {
 inline const SharedMatrix& mass_of(const System& system, std::size_t species) {
   const SharedMatrix& own = system.species[species].mass;
   return own ? own : system.mass;
+}
+/// Null where none are.
+inline const Held* held_of(const System& system, std::size_t species) {
+  const auto& own = system.species[species].held;
+  return own ? own.get() : system.held.get();
 }
 inline const Vector& weight_of(const System& system, std::size_t species) {
   const SharedVector& own = system.species[species].weight;

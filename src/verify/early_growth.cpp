@@ -26,7 +26,7 @@ Program program_on_sphere(const std::string& model, int vertices, double waves) 
   recipe.stages[0].model.value = model;
   for (const ParameterSource& p : load_model(model).parameters)
     if (p.name == "unevenness") recipe.stages[0].parameters.push_back({p.name, 0, {}});
-  recipe.stages[0].size = Given<Length>{{2 * std::numbers::pi / waves, false}, {}};
+  recipe.stages[0].size = Given<Length>{{2 * std::numbers::pi / waves, Length::Unit::world}, {}};
   recipe.stages[0].interpolate = true;
   return make_program(recipe, builtin_shape("builtin:sphere?n=" + std::to_string(vertices)));
 }

@@ -17,7 +17,7 @@ constexpr double size = 0.6;  // about 40 spots on the unit sphere
 double relative_wavelength(SphereTriangulation triangulation) {
   Recipe recipe;
   recipe.stages[0].model.value = "turing";
-  recipe.stages[0].size = Given<Length>{{size, false}, {}};
+  recipe.stages[0].size = Given<Length>{{size, Length::Unit::world}, {}};
   recipe.stages[0].interpolate = true;
   Run run(make_program(recipe, unit_sphere(triangulation, 1002)));
   while (!run.done()) run.advance(100);

@@ -75,7 +75,7 @@ Recipe small_recipe(const std::string& method, const std::string& stepper) {
   Recipe recipe;
   recipe.stages[0].method.value = method;
   recipe.stages[0].stepper.value = stepper;
-  recipe.stages[0].size = {{0.5, true}, {}};
+  recipe.stages[0].size = {{0.5}, {}};
   recipe.stages[0].steps = 200;
   return recipe;
 }

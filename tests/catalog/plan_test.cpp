@@ -97,5 +97,11 @@ TEST(Bind, VerticesOfVeryHighValenceGetLinearElements) {
   EXPECT_EQ(make_program(insists, fan).method, &loop_method);
 }
 
+TEST(Bind, MethodsForGridsTakeNoMeshes) {
+  Recipe recipe;
+  recipe.stages[0].method = {"grid", {"--method"}};
+  EXPECT_THROW(make_program(recipe, builtin_shape("builtin:sphere?n=162")), Error);
+}
+
 }  // namespace
 }  // namespace pelage

@@ -30,7 +30,7 @@ TEST_P(EveryRecipe, RunsSmallAndIsDressed) {
   Recipe recipe = load_recipe(GetParam());
   EXPECT_EQ(recipe.name, GetParam());
   EXPECT_FALSE(recipe.summary.empty());
-  EXPECT_EQ(recipe.shape, "builtin:animal");
+  EXPECT_EQ(recipe.shape, recipe.name == "replication" ? "builtin:tile?n=256" : "builtin:animal");
   for (Stage& stage : recipe.stages) {
     stage.size->value.value = std::max(stage.size->value.value, 0.08);
     stage.steps = 3;
@@ -84,7 +84,7 @@ struct Cascade {
   explicit Cascade(const std::string& name) {
     Recipe recipe = load_recipe(name);
     const double factor = large_spacing / recipe.stages[0].size->value.value;
-    for (Stage& stage : recipe.stages) stage.size = {{stage.size->value.value * factor, false}, {}};
+    for (Stage& stage : recipe.stages) stage.size = {{stage.size->value.value * factor, Length::Unit::world}, {}};
     pelage::Run run(make_program(recipe, builtin_shape("builtin:sphere?n=10242")));
     while (!run.done()) run.advance(1000);
     const SparseMatrix& values = run.space().node_values();
@@ -162,7 +162,7 @@ TEST(Zebra, StripesFollowTheFieldOnTheAnimal) {
 std::vector<double> heights_of_spots(double size, bool mapped) {
   Recipe recipe = parse_recipe(std::string("[stage]\nmodel = \"turing\"\n") + (mapped ? "size-map = \"2 + z\"\n" : ""),
                                "test.toml");
-  recipe.stages[0].size = {{size, false}, {}};
+  recipe.stages[0].size = {{size, Length::Unit::world}, {}};
   pelage::Run run(make_program(recipe, builtin_shape("builtin:sphere?n=10242")));
   while (!run.done()) run.advance(1000);
   const Vector b = run.space().node_values() * run.coefficients()[1];

@@ -14,7 +14,7 @@ namespace pelage {
 namespace {
 
 constexpr double diagonal = 50;
-const ShapeScale unknown{diagonal, 40, {}, {}}, millimetres{diagonal, 40, {}, 0.001};
+const ShapeScale unknown{diagonal, 40, {}, {}, {}}, millimetres{diagonal, 40, {}, 0.001, {}};
 
 /// The stage of a recipe whose table holds these lines.
 Stage stage_with(const std::string& lines) {
@@ -70,7 +70,7 @@ TEST(StageSizes, MetresBecomeUnitsOfTheShape) {
   for (const auto& [text, metres] : std::map<std::string, double>{
            {"4mm", 0.004}, {"2cm", 0.02}, {"0.1m", 0.1}, {"3in", 0.0762}, {"1ft", 0.3048}, {"0.5km", 500}}) {
     EXPECT_DOUBLE_EQ(size_of("size = \"" + text + "\"", {}, millimetres).wavelength, 1000 * metres) << text;
-    EXPECT_DOUBLE_EQ(size_of("size = \"" + text + "\"", {}, {diagonal, 40, {}, 1.0}).wavelength, metres) << text;
+    EXPECT_DOUBLE_EQ(size_of("size = \"" + text + "\"", {}, {diagonal, 40, {}, 1.0, {}}).wavelength, metres) << text;
     EXPECT_DOUBLE_EQ(size_of("unit = \"" + text + "\"", {}, millimetres).length_unit, 1000 * metres) << text;
   }
   EXPECT_EQ(size_of("size = \"4u\"", {}, millimetres).wavelength, 4);

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Do the programs that people use open our files?   tests/clients/run.sh [FILE.{glb,ply,obj,vtp}...]
+# Do the programs that people use open our files?   tests/clients/run.sh [FILE.{glb,ply,obj,vtp,vti,vts,exr}...]
 # Installs what is missing (Debian packages through apt as root, npm packages into build/clients), prints one line per
 # client and file, and exits with 1 if a client refuses a file or finds no mesh, no colours or no normals in it. Without
 # files only what does not need any: the figure that goes from Blender through the program and back (docs/blender.md), and
@@ -48,6 +48,7 @@ there() {
 validator() { report gltf-validator "$1" node "$here/check_gltf.mjs"; }
 three() { report three.js "$1" node "$here/check_three.mjs"; }
 blender() { report Blender "$1" blender -b --factory-startup --python-exit-code 3 -P "$here/check_blender.py" --; }
+exr() { report Blender "$1" blender -b --factory-startup --python-exit-code 3 -P "$here/check_exr.py" --; }
 paraview() { report ParaView "$1" with_display pvpython --force-offscreen-rendering "$here/check_paraview.py"; }
 # On a busy machine the virtual display is not always there in time: the client aborts before it reads the file.
 with_display() { xvfb-run -a "$@" || { [ $? -eq 134 ] && sleep 2 && xvfb-run -a "$@"; }; }
@@ -61,6 +62,8 @@ for file in "$@"; do
     *.ply) blender "$file"; paraview "$file"; three "$file" ;;
     *.obj) blender "$file"; paraview "$file"; three "$file" ;;
     *.vtp) paraview "$file"; three "$file" ;;
+    *.vti|*.vts) paraview "$file" ;;
+    *.exr) exr "$file" ;;
     *) echo "$file: no client is known for this format" >&2; failures=$((failures + 1)) ;;
   esac
 done

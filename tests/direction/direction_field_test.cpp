@@ -181,6 +181,18 @@ TEST(Guides, AnAxisGivesMeridians) {
   EXPECT_THROW(axis_guides(c, {0, 0, 0}, 1, Sense::along), Error);
 }
 
+/// Seen from above, they run away from the centre; where the surface is perpendicular to that, they are free.
+TEST(Guides, ACentreGivesRays) {
+  const TriangleMesh mesh = builtin_shape("builtin:sphere?n=2562");
+  const Connection c = connection_of(mesh);
+  const Point centre{0, 0, 1};
+  const DirectionField along = direction_field(c, 2, centre_guides(c, mesh.points, centre, 100, Sense::along));
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (std::abs(mesh.points[v][2]) > 0.7) continue;
+    EXPECT_LE(line_angle(along.direction[v], tangential(c, v, difference(mesh.points[v], centre))), 2);
+  }
+}
+
 TEST(Guides, CurvatureOfATorusRunsAroundItsTube) {
   const TriangleMesh mesh = builtin_shape("builtin:torus?n=2000");
   const Connection c = connection_of(mesh);

@@ -12,8 +12,10 @@
 
 #include "catalog/models.h"
 #include "catalog/plan.h"
+#include "io/grid_file.h"
 #include "io/mtl_reader.h"
 #include "io/texture_reader.h"
+#include "io/vtk_grid.h"
 #include "pelage/fair.h"
 #include "pelage/grow.h"
 #include "pelage/io.h"
@@ -130,6 +132,22 @@ void read_image(std::string_view bytes) {
   });
 }
 
+/// A grid goes through a file and comes back with its points.
+void read_grid_as(const char* name, std::string_view bytes) {
+  std::optional<GridFile> file;
+  if (!accepted([&] { file = read_grid_bytes(bytes, name); })) return;
+  constexpr std::size_t few = 1000000;  // nodes: of a grid without values there may be many more
+  if (file->grid.nodes() > few) return;
+  accepted([&] {
+    const Grid again = read_grid_bytes(vts_bytes(file->grid), "again.vts").grid;
+    promise(again.count == file->grid.count && again.point(0) == file->grid.point(0), "a grid comes back");
+  });
+}
+
+void read_vtk(std::string_view bytes) { read_grid_as("input.vti", bytes); }
+
+void read_sheet(std::string_view bytes) { read_grid_as("input.png", bytes); }
+
 // --- texts ----------------------------------------------------------------------------------------------
 
 void evaluate(const Model& model) {
@@ -176,7 +194,7 @@ void read_formula(std::string_view text) {
 
 Growth small_growth() {
   Recipe recipe;
-  recipe.stages[0].size = {{0.5, true}, {}};
+  recipe.stages[0].size = {{0.5}, {}};
   recipe.stages[0].steps = 2;
   return {load_shape("builtin:sphere?n=100"), recipe};
 }
@@ -211,6 +229,8 @@ const std::vector<InputReader>& input_readers() {
                                                {"glb", read_shape_as<"input.glb">},
                                                {"mtl", read_materials},
                                                {"image", read_image},
+                                               {"sheet", read_sheet},
+                                               {"vtk", read_vtk},
                                                {"model", read_model},
                                                {"recipe", read_recipe},
                                                {"formula", read_formula},

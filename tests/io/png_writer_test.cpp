@@ -54,6 +54,33 @@ TEST(PngWriter, RowsAndBitsAreTheSameForAnyNumberOfThreads) {
   stbi_image_free(pixels);
 }
 
+/// All values of 16 bits, read by stb as they are stored.
+TEST(PngWriter, SixteenBitsComeBack) {
+  std::vector<std::uint16_t> grey;
+  Image image{256, 256, {}};
+  for (std::size_t i = 0; i < 65536; ++i) {
+    grey.push_back(static_cast<std::uint16_t>(i));
+    for (const std::size_t k : {i, 65535 - i, i * 40503 % 65536})
+      image.rgb.push_back(static_cast<float>(linear_from_srgb(static_cast<double>(k) / 65535)));
+  }
+  const auto read = [](const std::string& png, int wanted) {
+    int width = 0, height = 0, channels = 0;
+    const auto* data = reinterpret_cast<const stbi_uc*>(png.data());
+    EXPECT_TRUE(stbi_is_16_bit_from_memory(data, static_cast<int>(png.size())));
+    const std::unique_ptr<stbi_us, void (*)(void*)> pixels(
+        stbi_load_16_from_memory(data, static_cast<int>(png.size()), &width, &height, &channels, 0), stbi_image_free);
+    EXPECT_EQ(channels, wanted);
+    return std::vector<std::uint16_t>(pixels.get(), pixels.get() + std::size_t{65536} * channels);
+  };
+  EXPECT_EQ(read(grey_png_bytes(256, 256, grey), 1), grey);
+  const std::vector<std::uint16_t> rgb = read(deep_png_bytes(image), 3);
+  for (std::size_t i = 0; i < 65536; ++i) {
+    ASSERT_EQ(rgb[3 * i], i);
+    ASSERT_EQ(rgb[3 * i + 1], 65535 - i);
+    ASSERT_EQ(rgb[3 * i + 2], i * 40503 % 65536);
+  }
+}
+
 TEST(PngWriter, RefusesWhatIsNotANumber) {
   const std::string path = (test::fresh_folder() / "a.png").string();
   EXPECT_THROW(write_png({1, 1, {0, NAN, 0}}, path), Error);

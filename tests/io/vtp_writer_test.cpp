@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "base/srgb.h"
+#include "io/vtk_xml.h"
 #include "io/written_meshes.h"
 
 namespace pelage {

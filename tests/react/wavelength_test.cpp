@@ -204,6 +204,7 @@ TEST(Wavelength, OfEveryModelAtItsOwnValuesIsTheMeasuredOne) {
                                                   {"witkin-kass-5", 8.5},
                                                   {"witkin-kass-5:twisty-maze", 10.5},
                                                   {"witkin-kass-stripes", 7.9},
+                                                  {"witkin-kass-stripes:paper", 7.9},
                                                   {"witkin-kass", 10.7},
                                                   {"witkin-kass:worms", 10.7},
                                                   {"witkin-kass:giraffe", 10}};

@@ -174,7 +174,7 @@ Run on_square(const std::string& model, double side, int vertices, double size, 
   set_directions(mesh, [](const Point&) { return Point{1, 0, 0}; });
   Recipe recipe;
   recipe.stages[0].model.value = path.string();
-  recipe.stages[0].size = Given<Length>{{size, false}, {}};
+  recipe.stages[0].size = Given<Length>{{size, Length::Unit::world}, {}};
   recipe.stages[0].until = until;
   recipe.stages[0].interpolate = true;
   recipe.stages[0].method.value = method;

@@ -21,7 +21,7 @@ std::string failure(const std::string& species, const std::string& stepper = "",
   recipe.models["own"] = "name = \"own\"\nwavelength = 1\n" + species;
   Stage& stage = recipe.stages[0];
   stage.model.value = "own";
-  stage.size = Given<Length>{{0.3, true}, {}};
+  stage.size = Given<Length>{{0.3}, {}};
   stage.stepper.value = stepper;
   if (step > 0) stage.step = step;
   Run run(make_program(recipe, builtin_shape(shape)));
@@ -106,7 +106,7 @@ TEST(BlowUp, NamesTheStage) {
   recipe.stages.resize(2);
   recipe.stages[0].steps = 1;
   recipe.stages[1].model.value = "own";
-  for (Stage& stage : recipe.stages) stage.size = Given<Length>{{0.5, true}, {}};
+  for (Stage& stage : recipe.stages) stage.size = Given<Length>{{0.5}, {}};
   recipe.stages[0].name.value = "first";
   recipe.stages[1].name.value = "second";
   pelage::Run run(make_program(recipe, builtin_shape("builtin:sphere?n=362")));

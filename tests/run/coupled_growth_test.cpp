@@ -21,7 +21,7 @@ Program on_sphere(const std::string& model, const std::string& stepper = "sbdf2"
   recipe.stages[0].model.value = model;
   recipe.stages[0].stepper.value = stepper;
   recipe.stages[0].method.value = method;
-  recipe.stages[0].size = Given<Length>{{2, false}, {}};
+  recipe.stages[0].size = Given<Length>{{2, Length::Unit::world}, {}};
   recipe.stages[0].interpolate = true;
   return make_program(recipe, builtin_shape("builtin:sphere?n=642"));
 }

@@ -98,7 +98,7 @@ Run of_model(const std::string& model, const std::string& stepper, const std::st
   recipe.stages[0].model.value = model;
   recipe.stages[0].stepper.value = stepper;
   recipe.stages[0].method.value = method;
-  recipe.stages[0].size = Given<Length>{{1, false}, {}};
+  recipe.stages[0].size = Given<Length>{{1, Length::Unit::world}, {}};
   recipe.stages[0].interpolate = true;
   return Run(make_program(recipe, builtin_shape("builtin:sphere?n=642")));
 }

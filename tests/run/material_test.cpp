@@ -23,7 +23,7 @@ Run standing(const std::string& initial, TriangleMesh shape, const std::string& 
   recipe.stages[0].model.value = path.string();
   recipe.stages[0].stepper.value = stepper;
   recipe.stages[0].method.value = method;
-  recipe.stages[0].size = Given<Length>{{0.3, true}, {}};
+  recipe.stages[0].size = Given<Length>{{0.3}, {}};
   return Run(make_program(recipe, std::move(shape)));
 }
 

@@ -19,7 +19,7 @@ using Growth = Run;  // in a test, Run is a function of its own
 
 Recipe moving_recipe(double size = 0.5) {
   Recipe recipe;
-  recipe.stages[0].size = Given<Length>{{size, false}, {}};
+  recipe.stages[0].size = Given<Length>{{size, Length::Unit::world}, {}};
   return recipe;
 }
 
@@ -49,7 +49,7 @@ TEST(MovingSurface, SlicesAndCheckpointsKeepTheBits) {
       recipe.motion.mode.value = mode;
       recipe.motion.growth = 1e-4;
       recipe.stages[0].stepper.value = stepper;
-      recipe.stages[0].size = Given<Length>{{2, false}, {}};
+      recipe.stages[0].size = Given<Length>{{2, Length::Unit::world}, {}};
       if (recipe.stages[0].stepper.value != "sbdf2") recipe.stages[0].step = 0.02;
       const auto start = [&] { return Growth(make_program(recipe, noisy_sphere("162"))); };
       Growth whole = start(), sliced = start(), resumed = start();

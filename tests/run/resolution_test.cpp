@@ -13,7 +13,7 @@ namespace {
 Run start(const std::string& shape) {  // in a test, Run is a member of the test
   Recipe recipe;
   recipe.stages[0].method.value = "loop";
-  recipe.stages[0].size = Given<Length>{{0.2, true}, {}};
+  recipe.stages[0].size = Given<Length>{{0.2}, {}};
   return Run(make_program(recipe, builtin_shape(shape)));
 }
 

@@ -16,7 +16,7 @@ namespace {
 Recipe small_recipe(const std::string& model = "turing") {
   Recipe recipe;
   recipe.stages[0].model.value = model;
-  recipe.stages[0].size = Given<Length>{{0.5, true}, {}};
+  recipe.stages[0].size = Given<Length>{{0.5}, {}};
   return recipe;
 }
 
@@ -158,7 +158,7 @@ TEST(Run, CheckpointsAreLittleEndian) {
 TEST(Run, SaysWhenNothingHasGrown) {
   Recipe recipe = small_recipe("gray-scott");  // its only state is stable there
   recipe.stages[0].parameters = {{"F", 0.1, {}}, {"k", 0.03, {}}};
-  recipe.stages[0].unit = Given<Length>{{0.02, true}, {}};
+  recipe.stages[0].unit = Given<Length>{{0.02}, {}};
   recipe.stages[0].size.reset();
   auto quiet = start(recipe, "builtin:sphere?n=162");
   quiet.advance(100000);

@@ -20,7 +20,7 @@ inline Run run_on_unit_sphere(const std::string& species, const std::string& ste
   recipe.stages[0].model.value = path.string();
   recipe.stages[0].method.value = stepper_named(stepper).nodal ? "remeshed" : "loop";
   recipe.stages[0].stepper.value = stepper;
-  recipe.stages[0].size = Given<Length>{{1.3, false}, {}};
+  recipe.stages[0].size = Given<Length>{{1.3, Length::Unit::world}, {}};
   recipe.stages[0].step = step;
   recipe.stages[0].until = until;
   recipe.stages[0].interpolate = true;

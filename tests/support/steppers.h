@@ -13,7 +13,7 @@ namespace pelage {
 inline std::vector<std::string> stepper_names() {
   std::vector<std::string> names;
   for (const StepperKind* kind : stepper_kinds())
-    if (!kind->nodal) names.emplace_back(kind->name);
+    if (!kind->nodal && !kind->lattice) names.emplace_back(kind->name);
   return names;
 }
 

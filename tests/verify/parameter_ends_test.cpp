@@ -16,7 +16,7 @@ std::optional<RunSummary> run_with(const std::string& model, const std::vector<S
   Recipe recipe;
   recipe.stages[0].model.value = model;
   recipe.stages[0].parameters = parameters;
-  recipe.stages[0].size = Given<Length>{{0.9, false}, {}};
+  recipe.stages[0].size = Given<Length>{{0.9, Length::Unit::world}, {}};
   try {
     Program program = make_program(recipe, builtin_shape("builtin:sphere?n=162"));
     program.edge = 1e9;  // the mesh as it is

@@ -20,7 +20,7 @@ double spacing_over_size(const Case& c, double size) {
   Stage& stage = recipe.stages[0];
   stage.model.value = c.model;
   stage.parameters = c.parameters;
-  stage.size = Given<Length>{{size, false}, {}};
+  stage.size = Given<Length>{{size, Length::Unit::world}, {}};
   const Program program = make_program(recipe, builtin_shape("builtin:sphere?n=642"));
   const double unit = program.stages[0].length_unit;
   return finish_pattern(program).wavelength * unit / size;

@@ -30,7 +30,7 @@ Program program(const std::string& model, const TriangleMesh& shape, double size
   // A moment of turbulence is no mean: the file has what was measured with this method.
   if (model.ends_with(":turbulent")) recipe.stages[0].method.value = "loop";
   recipe.stages[0].model.value = model;
-  recipe.stages[0].size = Given<Length>{{size, false}, {}};
+  recipe.stages[0].size = Given<Length>{{size, Length::Unit::world}, {}};
   recipe.stages[0].steps = steps;
   recipe.stages[0].interpolate = true;
   return make_program(recipe, shape);
