@@ -9,10 +9,12 @@
 #include "base/job_progress.h"
 #include "base/parallel.h"
 #include "catalog/bind.h"
+#include "catalog/images.h"
 #include "catalog/size.h"
 #include "command.h"
 #include "gallery_page.h"
 #include "gallery_subjects.h"
+#include "grid_outputs.h"
 #include "input_unit.h"
 #include "interrupt.h"
 #include "io/atomic_file.h"
@@ -66,20 +68,29 @@ struct Job {
   GalleryPicture* picture;
 };
 
+Program program_of(const Recipe& recipe, const GalleryShape& shape) {
+  if (shape.grid) return make_program(recipe, *shape.grid);
+  if (shape.atlas) return bind_plan(plan(recipe), shape.atlas, read_images(recipe.textures));
+  return make_program(recipe, shape.mesh);
+}
+
 /// One recipe on one shape; an empty image when `report` asks to stop.
 Image make_picture(const Job& job, int size, const std::function<bool(double)>& report) {
   const Progress progress = [&](std::string_view, double) { return report(0); };
   const Recipe& recipe = job.subject->recipe;
-  Run run(make_program(recipe, job.shape->mesh), progress);
+  Run run(program_of(recipe, *job.shape), progress);
   while (!run.done()) {
     if (!report(share_of_run * run.fraction())) return {};
     run.advance(steps_per_slice);
   }
   if (run.summary().status == RunStatus::failed) throw Error(Fault::numerics, run.summary().message);
   if (run.uniform()) job.picture->uniform = run.why_uniform();
+  const TriangleMesh coat = dress(run.fields(), recipe.look);
+  if (const Grid* grid = job.shape->grid.get(); grid && is_flat(*grid))
+    return picture_of_nodes(*grid, coat, {1, 1}, size);
   PictureOptions options;
   options.width = options.height = size;
-  return render(dress(run.fields(), recipe.look), options);
+  return render(coat, options);
 }
 
 void do_job(const Job& job, const GalleryOptions& options, const std::function<bool(double)>& report) {
@@ -122,7 +133,7 @@ void warn(const std::string& text) { std::fprintf(stderr, "pelage: warning: %s\n
 
 void warn_of_valences(const std::vector<GalleryShape>& shapes) {
   for (const GalleryShape& shape : shapes)
-    for (const std::string& text : make_program({}, shape.mesh).warnings) warn(shape.name + ": " + text);
+    for (const std::string& text : program_of({}, shape).warnings) warn(shape.name + ": " + text);
 }
 
 void warn_of_uniform_pictures(const std::vector<Job>& jobs) {
@@ -169,7 +180,7 @@ void require_lengths(const std::vector<GallerySubject>& subjects, const std::vec
     for (const GallerySubject& subject : subjects)
       for (const Stage& stage : subject.recipe.stages)
         for (const auto& length : {stage.size, stage.unit, stage.points})
-          if (length) world_length(*length, scale_of(shape.mesh));
+          if (length) world_length(*length, shape.grid ? scale_of(*shape.grid) : scale_of(shape.mesh));
 }
 
 void make_folder(const std::string& folder) {

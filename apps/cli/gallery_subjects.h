@@ -26,6 +26,8 @@ std::vector<GallerySubject> recipe_subjects(const std::vector<std::string>& name
 struct GalleryShape {
   std::string name;
   TriangleMesh mesh;
+  std::shared_ptr<const Grid> grid;    ///< of which it is the mesh, or null
+  std::shared_ptr<const Atlas> atlas;  ///< likewise
 };
 
 /// These shapes, with that unit if it is given; those that suit models or recipes when there is none.

@@ -20,6 +20,7 @@ bool is_grid_output(const std::string& path) {
 }
 
 void check_grid_output(const std::string& path, const std::string& shape) {
+  check_shape_name(shape);
   if (!names_grid(shape))
     throw Error(Fault::usage,
                 path + ": " + join_names(grid_output_extensions()) +

@@ -441,6 +441,10 @@ Recipe make_recipe(const GrowOptions& options) {
 void check_inputs(const GrowOptions& options, const Recipe& recipe) {
   for (const TextureFile& texture : recipe.textures) require_file(texture.path);
   check_shape_name(recipe.shape);
+  const Look& look = recipe.look;
+  if ((names_grid(recipe.shape) || names_atlas(recipe.shape)) &&
+      (look.flat || look.keep_shape || look.detail.value_or(0) > 0))
+    throw Error(Fault::usage, "a grid is coloured at its own nodes: leave --flat, --keep-shape and --detail out");
   if (!options.resume.empty()) require_file(options.resume);
 }
 
@@ -462,6 +466,9 @@ void check_outputs(const GrowOptions& options, const std::string& shape) {
     check_picture_size(options.picture_size, options.picture_size, options.picture);
   }
   if (!options.plot.empty()) check_picture_path(options.plot);
+  if (options.preview != std::array{1, 1} && (!names_grid(shape) || options.picture.empty()))
+    throw Error(Fault::usage,
+                "--preview shows a tile several times in its --picture; give that, and a grid for the shape");
   if (!options.panels.empty()) {
     check_picture_path(options.panels);
     const auto [width, height] = size_of_panels(options.picture_size);

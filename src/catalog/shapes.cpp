@@ -1,9 +1,11 @@
 #include "catalog/shapes.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "base/suggest.h"
 #include "catalog/embedded.h"
+#include "catalog/regions.h"
 #include "gridgen/generate.h"
 #include "gridgen/patches.h"
 #include "io/grid_file.h"
@@ -12,6 +14,7 @@
 #include "recipe/document.h"
 #include "shape/atlas.h"
 #include "shape/builtin_grids.h"
+#include "shape/generators.h"
 #include "shape/grid.h"
 
 namespace pelage {
@@ -90,17 +93,30 @@ ShapeFile made(const Description& d) {
   return file;
 }
 
+/// Of built-in shapes all kinds are known here.
+void require_known(const std::string& path) {
+  if (!path.starts_with(prefix)) return;
+  const std::string name = path.substr(prefix.size(), path.find('?') - prefix.size());
+  std::vector<std::string> known = builtin_shape_names();
+  for (const auto& more : {builtin_grid_names(), region_names(), patches_names()})
+    known.insert(known.end(), more.begin(), more.end());
+  if (std::ranges::count(known, name) == 0) throw Error(Fault::usage, unknown_name("built-in shape", name, known));
+}
+
 }  // namespace
 
 std::vector<std::string> patches_names() { return embedded_names("patches"); }
 
 ShapeFile find_shape(const std::string& path) {
   if (const auto description = description_of(path)) return made(*description);
+  require_known(path);
   return read_shape(path);
 }
 
 void check_shape_name(const std::string& path) {
-  if (!description_of(path)) check_shape_path(path);
+  if (description_of(path)) return;
+  require_known(path);
+  check_shape_path(path);
 }
 
 bool names_grid(const std::string& path) {

@@ -37,7 +37,7 @@ VertexAttributes attributes_at_nodes(const Program& program, const StageProgram&
     if (const auto field = fields.find(s.name); field != fields.end()) attributes.insert(*field);
     if (stage.points && s.name == points_attribute)
       attributes[s.name] = distance_to_random_points(world.space().geometry(SampleRule::vertices, false).position,
-                                                     *stage.points, stage.seed);
+                                                     *stage.points, stage.seed, stage.period);
   }
   return attributes;
 }

@@ -56,7 +56,27 @@ class Cubes {
 
 }  // namespace
 
-std::vector<double> distance_to_random_points(const std::vector<Point>& positions, double spacing, std::uint64_t seed) {
+namespace {
+
+/// A point and where space repeats it next to the box.
+template <class Use>
+void for_images(const Point& p, const Point& period, Use&& use) {
+  for (int image = 0; image < 27; ++image) {
+    const std::array<int, 3> step = {image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1};
+    Point moved = p;
+    bool repeats = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      repeats &= step[k] == 0 || period[k] > 0;
+      moved[k] += step[k] * period[k];
+    }
+    if (repeats) use(moved);
+  }
+}
+
+}  // namespace
+
+std::vector<double> distance_to_random_points(const std::vector<Point>& positions, double spacing, std::uint64_t seed,
+                                              const Point& period) {
   std::vector<std::size_t> order(positions.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const Point middle = box_of(positions).middle();
@@ -66,7 +86,8 @@ std::vector<double> distance_to_random_points(const std::vector<Point>& position
   std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair{rank[i], i}; });
   Cubes chosen(positions, spacing);
   for (const std::size_t i : order)
-    if (chosen.distance(positions[i]) >= spacing) chosen.add(positions[i]);
+    if (chosen.distance(positions[i]) >= spacing)
+      for_images(positions[i], period, [&](const Point& p) { chosen.add(p); });
   std::vector<double> distance;
   distance.reserve(positions.size());
   for (const Point& p : positions) distance.push_back(chosen.distance(p) / spacing);

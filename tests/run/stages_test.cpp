@@ -302,6 +302,32 @@ TEST(RandomPoints, KeepTheirDistanceAndLeaveNoGap) {
 }
 
 /// Neither where the surface lies nor how fine the points are asked for has a limit.
+/// On a tile the nearest point may lie beyond the border.
+TEST(RandomPoints, RepeatWhereSpaceDoes) {
+  constexpr int n = 24;
+  std::vector<Point> tile;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) tile.push_back({i / double(n), j / double(n), 0});
+  constexpr double spacing = 0.2;
+  const std::vector<double> distance = distance_to_random_points(tile, spacing, 3, {1, 1, 0});
+  std::vector<Point> chosen;
+  for (std::size_t v = 0; v < tile.size(); ++v)
+    if (distance[v] == 0) chosen.push_back(tile[v]);
+  ASSERT_GT(chosen.size(), 10U);
+  const auto around = [](const Point& a, const Point& b) {
+    const auto away = [&](std::size_t k) { return std::min(std::abs(a[k] - b[k]), 1 - std::abs(a[k] - b[k])); };
+    return std::hypot(away(0), away(1));
+  };
+  for (std::size_t v = 0; v < tile.size(); ++v) {
+    double nearest = 1;
+    for (const Point& c : chosen) nearest = std::min(nearest, around(tile[v], c));
+    EXPECT_NEAR(distance[v], nearest / spacing, 1e-12);
+    EXPECT_LT(distance[v], 1);
+  }
+  for (std::size_t a = 0; a < chosen.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) EXPECT_GE(around(chosen[a], chosen[b]), spacing - 1e-12);
+}
+
 TEST(RandomPoints, FarAwayAndFinerThanAnyMesh) {
   std::vector<Point> positions = builtin_shape("builtin:torus?n=2000").points;
   for (Point& p : positions)
