@@ -60,8 +60,7 @@ std::vector<GalleryShape> gallery_shapes(const std::vector<std::string>& paths, 
     const bool built_in = path.starts_with("builtin:");
     const std::string name =
         built_in ? path.substr(8, path.find('?') - 8) : std::filesystem::path(path).stem().string();
-    ShapeFile file = read_shape(path, metres_per_unit);
-    shapes.push_back({name, std::move(file.mesh), std::move(file.grid), std::move(file.atlas)});
+    shapes.push_back({name, read_shape(path, metres_per_unit)});
   }
   if (!shapes.empty()) return shapes;
   // Coarse enough that the pattern alone decides how fine the mesh gets.

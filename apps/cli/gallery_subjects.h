@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "pelage/io.h"
 #include "pelage/recipe.h"
-#include "pelage/triangle_mesh.h"
 
 namespace pelage {
 
@@ -25,9 +25,7 @@ std::vector<GallerySubject> recipe_subjects(const std::vector<std::string>& name
 
 struct GalleryShape {
   std::string name;
-  TriangleMesh mesh;
-  std::shared_ptr<const Grid> grid;    ///< of which it is the mesh, or null
-  std::shared_ptr<const Atlas> atlas;  ///< likewise
+  ShapeFile file;
 };
 
 /// These shapes, with that unit if it is given; those that suit models or recipes when there is none.

@@ -212,16 +212,10 @@ Image space_time_plot(const SpaceTime& plot, const Run& run, const Look& look, i
   return zoomed(plot.picture(run, look, std::max(1, size / across)), across, across);
 }
 
-Program bound(const Plan& planned, ShapeFile& file, std::vector<Texture> images) {
-  if (file.grid) return bind_plan(planned, file.grid, std::move(images));
-  if (file.atlas) return bind_plan(planned, file.atlas, std::move(images));
-  return bind_plan(planned, std::move(file.mesh), std::move(images));
-}
-
 Grown grown_coat(const GrowOptions& options, const Plan& planned, const Look& look, ShapeFile& file,
                  std::vector<Texture> images, const Progress& progress, GrowReport& report) {
   Run run = interruptible("before the growth began; nothing was written",
-                          [&] { return Run(bound(planned, file, std::move(images)), progress); });
+                          [&] { return Run(bind_plan(planned, file, std::move(images)), progress); });
   restore(run, options.resume);
   report.warnings(run);
   report.pattern(run);

@@ -260,10 +260,6 @@ void warn_if_coarse(const PlannedStage& planned, Program& p) {
                          " that the model needs: the grid itself may show in the pattern");
 }
 
-}  // namespace
-
-namespace {
-
 /// On the nodes of a shape as they are, with its mesh.
 Program bind_nodes(const Plan& plan, TriangleMesh shape, const ShapeScale& scale, std::vector<Texture> images) {
   require_fitting(plan, shape, scale);
@@ -286,11 +282,8 @@ void bind_stages(const Plan& plan, const ShapeScale& scale, const Point& period,
   count_iterations(plan, p);
 }
 
-}  // namespace
-
-Program bind_plan(const Plan& plan, std::shared_ptr<const Grid> grid, std::vector<Texture> images) {
+Program bind_grid(const Plan& plan, std::shared_ptr<const Grid> grid, TriangleMesh shape, std::vector<Texture> images) {
   if (!grid->even()) require_no_lattice(plan);
-  TriangleMesh shape = mesh_of(*grid);
   if (!plan.textures.empty() && !shape.find("uv")) shape.set(uv_of(*grid));
   const ShapeScale scale = scale_of(*grid);
   Program p = bind_nodes(plan, std::move(shape), scale, std::move(images));
@@ -299,9 +292,9 @@ Program bind_plan(const Plan& plan, std::shared_ptr<const Grid> grid, std::vecto
   return p;
 }
 
-Program bind_plan(const Plan& plan, std::shared_ptr<const Atlas> atlas, std::vector<Texture> images) {
+Program bind_atlas(const Plan& plan, std::shared_ptr<const Atlas> atlas, TriangleMesh shape,
+                   std::vector<Texture> images) {
   require_no_lattice(plan);
-  TriangleMesh shape = mesh_of(*atlas);
   ShapeScale scale = scale_of(shape);
   scale.cell = prevailing_edge(shape.triangles, shape.points);
   Program p = bind_nodes(plan, std::move(shape), scale, std::move(images));
@@ -310,6 +303,24 @@ Program bind_plan(const Plan& plan, std::shared_ptr<const Atlas> atlas, std::vec
     throw Error(Fault::usage, "the method \"" + std::string(p.method->name) + "\" is for single grids");
   bind_stages(plan, scale, {}, p);
   return p;
+}
+
+}  // namespace
+
+Program bind_plan(const Plan& plan, std::shared_ptr<const Grid> grid, std::vector<Texture> images) {
+  TriangleMesh shape = mesh_of(*grid);
+  return bind_grid(plan, std::move(grid), std::move(shape), std::move(images));
+}
+
+Program bind_plan(const Plan& plan, std::shared_ptr<const Atlas> atlas, std::vector<Texture> images) {
+  TriangleMesh shape = mesh_of(*atlas);
+  return bind_atlas(plan, std::move(atlas), std::move(shape), std::move(images));
+}
+
+Program bind_plan(const Plan& plan, ShapeFile& shape, std::vector<Texture> images) {
+  if (shape.grid) return bind_grid(plan, shape.grid, std::move(shape.mesh), std::move(images));
+  if (shape.atlas) return bind_atlas(plan, shape.atlas, std::move(shape.mesh), std::move(images));
+  return bind_plan(plan, std::move(shape.mesh), std::move(images));
 }
 
 Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> images) {

@@ -2,6 +2,7 @@
 // Joins a plan to a shape: lengths, attributes, images, directions.
 
 #include "catalog/plan.h"
+#include "pelage/io.h"
 #include "run/program.h"
 
 namespace pelage {
@@ -13,6 +14,8 @@ Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> ima
 /// The same on a grid. Error(Fault::usage) also for what a grid cannot do, by moving say.
 Program bind_plan(const Plan& plan, std::shared_ptr<const Grid> grid, std::vector<Texture> images = {});
 Program bind_plan(const Plan& plan, std::shared_ptr<const Atlas> atlas, std::vector<Texture> images = {});
+/// The same on whichever of these a shape is. Its mesh is taken out of it.
+Program bind_plan(const Plan& plan, ShapeFile& shape, std::vector<Texture> images = {});
 
 /// Plan, images and shape in one.
 Program make_program(const Recipe& recipe, TriangleMesh shape);

@@ -140,8 +140,8 @@ ModelSource model(const Value& document) {
 
 std::vector<ModelEntry> read_embedded() {
   std::vector<ModelEntry> list;
-  for (const EmbeddedFile& file : embedded_files()) {
-    if (!file.path.starts_with("models/")) continue;
+  for (const std::string& name : embedded_names("models")) {
+    const EmbeddedFile& file = *find_embedded("models", name);
     const ModelSource source = parse_model(file.text, std::string(file.path));
     list.push_back({source.name, source});
     for (const VariantSource& candidate : source.variants)

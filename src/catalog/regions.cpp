@@ -25,8 +25,4 @@ Region load_region(const std::string& name_or_path) {
   return parse_region(f.text, std::string(f.path));
 }
 
-Grid region_grid(const std::string& name_or_path, const GenerateOptions& options) {
-  return generate(load_region(name_or_path), options).grid;
-}
-
 }  // namespace pelage

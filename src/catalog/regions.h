@@ -18,7 +18,4 @@ std::string region_text(const std::string& name);
 /// for a file that cannot be read, Error(usage) with file, line and column for a fault in it.
 Region load_region(const std::string& name_or_path);
 
-/// The grid of a region as a shape; what else is known of it is in gridgen/generate.h.
-Grid region_grid(const std::string& name_or_path, const GenerateOptions& options = {});
-
 }  // namespace pelage

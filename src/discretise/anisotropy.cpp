@@ -38,6 +38,10 @@ Point mean_line(const Tensor& t, const Point& n) {
 
 }  // namespace
 
+Eigen::Matrix3d matrix_of(const Tensor& t) {
+  return (Eigen::Matrix3d() << t[0], t[1], t[2], t[1], t[3], t[4], t[2], t[4], t[5]).finished();
+}
+
 Tensor line_tensor(const Point& d) {
   return {d[0] * d[0], d[0] * d[1], d[0] * d[2], d[1] * d[1], d[1] * d[2], d[2] * d[2]};
 }

@@ -8,6 +8,8 @@
 
 namespace pelage {
 
+Eigen::Matrix3d matrix_of(const Tensor& tensor);
+
 /// d d', by which a line of either sense is known.
 Tensor line_tensor(const Point& d);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "discretise/anisotropy.h"
 #include "discretise/metric.h"
 #include "shape/normals.h"
 
@@ -45,12 +46,6 @@ Tensor in_space(const Metric& m, const Form& ii) {
   const Matrix3d s =
       ii.vv * v * v.transpose() + ii.vw * (v * w.transpose() + w * v.transpose()) + ii.ww * w * w.transpose();
   return {s(0, 0), s(0, 1), s(0, 2), s(1, 1), s(1, 2), s(2, 2)};
-}
-
-Matrix3d matrix(const Tensor& t) {
-  Matrix3d m;
-  m << t[0], t[1], t[2], t[1], t[3], t[4], t[2], t[4], t[5];
-  return m;
 }
 
 }  // namespace
@@ -96,7 +91,7 @@ PrincipalCurvatures principal_curvatures(const std::vector<Tensor>& curvature, c
     for (std::size_t i = begin; i < end; ++i) {
       const Vector3d n(normal[i][0], normal[i][1], normal[i][2]);
       const Matrix3d along = Matrix3d::Identity() - n * n.transpose();
-      const Matrix3d s = along * matrix(curvature[i]) * along;
+      const Matrix3d s = along * matrix_of(curvature[i]) * along;
       // Eigenvalues 0, k1, k2: trace = k1 + k2, squared norm = k1^2 + k2^2.
       const double mean = s.trace() / 2;
       const double half = std::sqrt(std::max(0.0, s.squaredNorm() / 2 - mean * mean));

@@ -23,9 +23,6 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 Eigen::Vector3d vector(const Point& p) { return {p[0], p[1], p[2]}; }
 Point point(const Eigen::Vector3d& x) { return {x[0], x[1], x[2]}; }
 
-Eigen::Matrix3d matrix(const Tensor& t) {
-  return (Eigen::Matrix3d() << t[0], t[1], t[2], t[1], t[3], t[4], t[2], t[4], t[5]).finished();
-}
 Tensor tensor(const Eigen::Matrix3d& m) { return {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)}; }
 
 SparseMatrix identity(Index n) {
@@ -174,7 +171,7 @@ SparseMatrix GridSpace::stiffness(const std::vector<double>& c) const {
 }
 
 SparseMatrix GridSpace::stiffness(const std::vector<Tensor>& c) const {
-  return stiffness_of([&](std::size_t q) { return matrix(c[q]); });
+  return stiffness_of([&](std::size_t q) { return matrix_of(c[q]); });
 }
 
 /// As of linear elements with their blended mass: unknowns are samples, and test = M W^-1 with the row sums W.
@@ -426,7 +423,7 @@ namespace {
 
 /// a1^2 d d' + a2^2 (1 - d d') with the main direction d of a mean of lines.
 Tensor volume_tensor(const Tensor& mean, double a1, double a2) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(matrix(mean));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(matrix_of(mean));
   const Eigen::Vector3d d = axes.eigenvectors().col(2);
   return tensor(a2 * a2 * Eigen::Matrix3d::Identity() + (a1 * a1 - a2 * a2) * d * d.transpose());
 }
@@ -458,7 +455,7 @@ std::vector<Tensor> GridSpace::tensors(const std::vector<Tensor>& lines, const K
       const std::size_t k = e * n + q;
       if (dimension == 1) {
         const Point d = unit(point(points[q].dual[0]));
-        result[k] = tensor(rates.a1[k] * rates.a1[k] * matrix(line_tensor(d)));
+        result[k] = tensor(rates.a1[k] * rates.a1[k] * matrix_of(line_tensor(d)));
         continue;
       }
       Tensor mean{};

@@ -154,9 +154,7 @@ double MaskSpace::area(Index v) const {
 }
 
 MaskSpace::Row MaskSpace::mask(Index v, const Tensor& a) const {
-  Eigen::Matrix3d tensor;
-  tensor << a[0], a[1], a[2], a[1], a[3], a[4], a[2], a[4], a[5];
-  const Eigen::Matrix2d in = parameters(v).pull * tensor * parameters(v).pull.transpose();
+  const Eigen::Matrix2d in = parameters(v).pull * matrix_of(a) * parameters(v).pull.transpose();
   const double x = in(0, 0), y = in(1, 1), corner = in(0, 1) / 2;
   const std::array<double, 9> weight = {-corner, -y, corner, -x, 2 * (x + y), -x, corner, -y, -corner};
   Row row;

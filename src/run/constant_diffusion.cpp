@@ -3,16 +3,13 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "discretise/anisotropy.h"
 #include "discretise/grid_space.h"
 #include "discretise/lattice_stencil.h"
 
 namespace pelage {
 
 namespace {
-
-Eigen::Matrix3d as_matrix(const Tensor& t) {
-  return (Eigen::Matrix3d() << t[0], t[1], t[2], t[1], t[3], t[4], t[2], t[4], t[5]).finished();
-}
 
 bool varies(const Model& model, std::size_t i) {
   if (!model.anisotropic(i)) return !model.diffusion_constant(i);
@@ -43,8 +40,8 @@ std::vector<Eigen::Matrix3d> constant_tensors(const StageProgram& stage, const S
   for (std::size_t i = 0; i < model.species_count(); ++i)
     tensors.push_back(scale *
                       (model.anisotropic(i)
-                           ? as_matrix(lattice_tensor(*space.lattice(), material.lines[0], even_anisotropy(stage, i)))
-                           : Eigen::Matrix3d(*model.diffusion_constant(i) * Eigen::Matrix3d::Identity())));
+                           ? matrix_of(lattice_tensor(*space.lattice(), material.lines[0], even_anisotropy(stage, i)))
+                           : Eigen::Matrix3d(model.diffusion_constant(i).value_or(0) * Eigen::Matrix3d::Identity())));
   return tensors;
 }
 

@@ -5,11 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "catalog/models.h"
 #include "catalog/plan.h"
 #include "pelage/error.h"
-#include "react/wavelength.h"
 #include "run/run.h"
+#include "support/model_stage.h"
 
 namespace pelage {
 namespace {
@@ -38,15 +37,7 @@ Growth grow_on(const Grid& grid, const std::string& model, const StepperKind& st
                const Method& method = grid_method) {
   Program program;
   program.method = &method;
-  StageProgram& stage = program.stages.emplace_back();
-  const ModelSource source = load_model(model);
-  stage.model = compile(source);
-  stage.stepper = &stepper;
-  stage.size = size;
-  stage.length_unit = size / model_wavelength(stage.model);
-  stage.suggested_step = source.suggestions.step.value();
-  stage.until = source.suggestions.end.value();
-  stage.stationary = source.suggestions.tolerance.value();
+  program.stages.push_back(stage_of(model, stepper, size));
   return Growth(std::make_shared<const Program>(std::move(program)), World(method.make_grid_space(grid)));
 }
 

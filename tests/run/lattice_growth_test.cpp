@@ -4,10 +4,9 @@
 
 #include <cmath>
 
-#include "catalog/models.h"
-#include "react/wavelength.h"
 #include "run/nested.h"
 #include "shape/grid.h"
+#include "support/model_stage.h"
 
 namespace pelage {
 namespace {
@@ -27,15 +26,7 @@ Program program_on(const Grid& grid, const std::string& model, const StepperKind
   program.method = &grid_method;
   program.shape = std::make_shared<const TriangleMesh>(mesh_of(grid));
   program.grid = std::make_shared<const Grid>(grid);
-  StageProgram& stage = program.stages.emplace_back();
-  const ModelSource source = load_model(model);
-  stage.model = compile(source);
-  stage.stepper = &stepper;
-  stage.size = size;
-  stage.length_unit = size / model_wavelength(stage.model);
-  stage.suggested_step = source.suggestions.step.value();
-  stage.until = source.suggestions.end.value();
-  stage.stationary = source.suggestions.tolerance.value();
+  program.stages.push_back(stage_of(model, stepper, size));
   return program;
 }
 
