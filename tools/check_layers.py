@@ -13,7 +13,8 @@ RANK = {layer: rank for rank, group in enumerate(ORDER.split("<")) for layer in 
 
 # The public headers belong to the layer that implements them.
 PUBLIC = {"error": "base", "point": "base", "progress": "base", "triangle_mesh": "shape", "polygon_mesh": "shape",
-          "up_axis": "shape", "image": "shape", "grid": "shape", "atlas": "shape",
+          "up_axis": "shape", "image": "shape", "grid": "shape", "atlas": "shape", "cells": "shape",
+          "tet_mesh": "shape", "node_shape": "shape",
           "finding": "shape", "stability": "react", "recipe": "recipe", "io": "io", "fair": "fair", "field": "direction",
           "run_summary": "run", "grow": "catalog", "analyse": "catalog", "render": "render", "pelage": "apps"}
 INCLUDE = re.compile(r'\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
