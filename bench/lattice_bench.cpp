@@ -34,7 +34,7 @@ Program program(std::int64_t nodes, const StepperKind& kind) {
   Program p;
   p.method = &grid_method;
   p.shape = std::make_shared<const TriangleMesh>(mesh_of(grid));
-  p.grid = std::make_shared<const Grid>(std::move(grid));
+  p.nodes = std::make_shared<const NodeShape>(std::move(grid));
   StageProgram& stage = p.stages.emplace_back();
   const ModelSource source = load_model("witkin-kass-stripes");
   stage.model = compile(source, {{"theta", angle}});

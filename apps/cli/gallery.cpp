@@ -85,7 +85,7 @@ Image make_picture(const Job& job, int size, const std::function<bool(double)>& 
   if (run.summary().status == RunStatus::failed) throw Error(Fault::numerics, run.summary().message);
   if (run.uniform()) job.picture->uniform = run.why_uniform();
   const TriangleMesh coat = dress(run.fields(), recipe.look);
-  if (const Grid* grid = job.shape->file.grid.get(); grid && is_flat(*grid))
+  if (const Grid* grid = as<Grid>(job.shape->file.nodes); grid && is_flat(*grid))
     return picture_of_nodes(*grid, coat, {1, 1}, size);
   PictureOptions options;
   options.width = options.height = size;
@@ -179,7 +179,7 @@ void require_lengths(const std::vector<GallerySubject>& subjects, const std::vec
     for (const GallerySubject& subject : subjects)
       for (const Stage& stage : subject.recipe.stages)
         for (const auto& length : {stage.size, stage.unit, stage.points})
-          if (length) world_length(*length, shape.file.grid ? scale_of(*shape.file.grid) : scale_of(shape.file.mesh));
+          if (length) world_length(*length, scale_of(shape.file));
 }
 
 void make_folder(const std::string& folder) {

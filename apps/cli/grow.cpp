@@ -201,7 +201,7 @@ struct Grown {
 };
 
 void require_line(const ShapeFile& file) {
-  if (!file.grid || file.grid->dimension() != 1)
+  if (const Grid* grid = as<Grid>(file.nodes); !grid || grid->dimension() != 1)
     throw Error(Fault::usage,
                 "--plot shows what a line does in the course of time; take builtin:line?n=60 for the shape");
 }
@@ -267,15 +267,15 @@ void grow(const GrowOptions& options) {
   if (recipe.look.keep_shape)
     write_outputs(options, kept_shape(form_of_shape(file, *grown.shape), grown.coat, grown.paint), nullptr, form,
                   progress, report);
-  else if (file.grid) {
-    const Grid grid = on_grid(*file.grid, grown.coat);
+  else if (const Grid* nodes = as<Grid>(file.nodes)) {
+    const Grid grid = on_grid(*nodes, grown.coat);
     write_outputs(options, surface_of(grid, grown.coat, grown.paint), &grid, form, progress, report);
   } else
     write_outputs(options, grown.coat, nullptr, form, progress, report);
   const PictureOptions picture = picture_options(options, *planned.quality, up);
   write_picture(options.picture, progress, report, [&](const Progress& p) {
-    if (file.grid && is_flat(*file.grid))
-      return picture_of_nodes(*file.grid, grown.coat, options.preview, options.picture_size);
+    if (const Grid* grid = as<Grid>(file.nodes); grid && is_flat(*grid))
+      return picture_of_nodes(*grid, grown.coat, options.preview, options.picture_size);
     return render(grown.coat, picture, p);
   });
   write_picture(options.panels, progress, report,

@@ -68,8 +68,16 @@ std::string grid_in_words(const Grid& grid) {
 }
 
 /// "6 patches".
-std::string nodes_in_words(const Program& program) {
-  return program.grid ? grid_in_words(*program.grid) : counted(program.atlas->patches.size(), "patch");
+std::string nodes_in_words(const NodeShape& nodes) {
+  struct Words {
+    std::string operator()(const Grid& grid) const { return grid_in_words(grid); }
+    std::string operator()(const Atlas& atlas) const { return counted(atlas.patches.size(), "patch"); }
+    std::string operator()(const Cells& cells) const { return counted(cells.nodes(), "cell"); }
+    std::string operator()(const TetMesh& volume) const {
+      return counted(volume.tets.size(), "tetrahedron") + " between " + counted(volume.nodes(), "node");
+    }
+  };
+  return std::visit(Words{}, nodes);
 }
 
 /// "60 x 40 x 10 mm".
@@ -160,7 +168,7 @@ void GrowReport::nodes(const Run& run, double finest, const std::string& per) {
   const bool split = world.hierarchy() != nullptr;
   const double edge = split ? prevailing_edge(world.topology().triangles, world.space().control()) : program.edge;
   const double density = finest / edge;
-  line("mesh", (split ? meshing(method, world.levels()) : nodes_in_words(program)) + ": " +
+  line("mesh", (split ? meshing(method, world.levels()) : nodes_in_words(*program.nodes)) + ": " +
                    counted(count, split ? "vertex" : "node") + ", " + brief(density) + " per " + per);
   json_["method"] = method.name;
   json_["refinements"] = world.levels();

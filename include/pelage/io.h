@@ -11,11 +11,10 @@
 #include <string_view>
 #include <vector>
 
-#include "pelage/atlas.h"
 #include "pelage/error.h"
 #include "pelage/finding.h"
-#include "pelage/grid.h"
 #include "pelage/image.h"
+#include "pelage/node_shape.h"
 #include "pelage/polygon_mesh.h"
 #include "pelage/up_axis.h"
 
@@ -29,10 +28,8 @@ struct ShapeFile {
   std::string name = {};
   /// What the file itself has, for as_in_file(); nullptr for built-in shapes and meshes of your own.
   std::shared_ptr<const SourceShape> source = nullptr;
-  /// Where the shape is a grid; `mesh` is then that of the grid.
-  std::shared_ptr<const Grid> grid = nullptr;
-  /// Where it is patches that are sewn together, likewise.
-  std::shared_ptr<const Atlas> atlas = nullptr;
+  /// Where the shape is a grid, patches that are sewn together or a volume; `mesh` then has its nodes for vertices.
+  std::shared_ptr<const NodeShape> nodes = nullptr;
 };
 
 /// Reads OBJ, PLY, STL, OFF, glTF and GLB, or makes a "builtin:NAME?parameters", and repairs what is safe to repair.

@@ -17,7 +17,6 @@
 #include "run/directions.h"
 #include "run/material.h"
 #include "run/random_points.h"
-#include "shape/atlas.h"
 #include "shape/grid.h"
 #include "shape/refine.h"
 
@@ -90,7 +89,8 @@ FieldWish bind_directions(const PlannedStage& planned, const MeshPlaces& places,
   return wish;
 }
 
-void require_sides(const std::vector<BorderCondition>& borders, const Grid* grid) {
+void require_sides(const std::vector<BorderCondition>& borders, const std::shared_ptr<const NodeShape>& nodes) {
+  const Grid* grid = as<Grid>(nodes);
   for (const BorderCondition& c : borders) {
     if (!grid) throw Error(Fault::usage, "conditions at borders are for grids; leave [boundary] out", c.where);
     const std::vector<std::string> sides = axis_ends(*grid);
@@ -124,7 +124,7 @@ StageProgram bind_stage(const PlannedStage& planned, const Program& program, con
   s.stationary = asked.stationary.value_or(suggested.tolerance.value_or(0));
   s.seed = asked.seed;
   s.borders = planned.borders;
-  require_sides(s.borders, program.grid.get());
+  require_sides(s.borders, program.nodes);
   if (asked.directions)
     s.directions = bind_directions(planned, {*program.shape, program.textures, s.length_unit, s.seed}, scale.diagonal);
   return s;
@@ -132,7 +132,7 @@ StageProgram bind_stage(const PlannedStage& planned, const Program& program, con
 
 void note_directions(const Program& p, StageProgram& s, std::vector<std::string>& warnings) {
   if (!s.model.anisotropic()) return;
-  const FollowedDirections followed = followed_directions(*p.shape, s.directions, p.grid != nullptr);
+  const FollowedDirections followed = followed_directions(*p.shape, s.directions, p.nodes.get());
   s.follows = followed.text;
   if (!followed.warning.empty()) warnings.push_back(followed.warning);
 }
@@ -175,12 +175,14 @@ bool sizes_differ(const Plan& plan, const Method& method) {
   return method.own_mesh && std::ranges::any_of(plan.stages, [](const auto& s) { return s.size_map.has_value(); });
 }
 
-/// A method of surfaces makes room for that of grids where the recipe does not insist.
-const Method* grid_method_of(const Plan& plan) {
-  if (!plan.method_asked) return &grid_method;
-  if (plan.method->make_grid_space) return plan.method;
-  throw Error(Fault::usage, "the method \"" + std::string(plan.method->name) + "\" is for surfaces; on a grid take \"" +
-                                std::string(grid_method.name) + "\"");
+/// A method of surfaces makes room for one that fits the nodes where the recipe does not insist.
+const Method* node_method_of(const Plan& plan, const NodeShape& nodes) {
+  if (plan.method->fits && plan.method->fits(nodes)) return plan.method;
+  const auto fits = [&](const Method* m) { return m->fits && m->fits(nodes); };
+  const Method* fitting = *std::ranges::find_if(methods(), fits);
+  if (!plan.method_asked) return fitting;
+  throw Error(Fault::usage, "the method \"" + std::string(plan.method->name) +
+                                "\" is not for shapes of this kind; take \"" + std::string(fitting->name) + "\"");
 }
 
 /// Before any work: steppers that know waves alone.
@@ -205,8 +207,8 @@ void require_no_lattice(const Plan& plan) {
 /// Loop elements are made for moderate valences: where the recipe does not insist, others take their place.
 const Method* fitting_method(const Plan& plan, const TriangleMesh& shape, std::vector<std::string>& warnings) {
   if (!plan.method->make_space)
-    throw Error(Fault::usage, "the method \"" + std::string(plan.method->name) +
-                                  "\" is for grids, and the shape is a mesh; leave the method away");
+    throw Error(Fault::usage,
+                "the method \"" + std::string(plan.method->name) + "\" is not for meshes; leave the method away");
   const Index valence = max_valence(make_topology(shape.points.size(), shape.triangles));
   if (plan.method_asked || valence <= plan.method->max_valence) return plan.method;
   warnings.push_back("a vertex has " + std::to_string(valence) + " edges, more than the " +
@@ -247,7 +249,7 @@ void count_iterations(const Plan& plan, Program& p) {
 
 void require_at_rest(const Plan& plan) {
   if (plan.fair || plan.motion.growth != 0)
-    throw Error(Fault::usage, "a grid stays where it is: leave fairing and growth out");
+    throw Error(Fault::usage, "these nodes stay where they are: leave fairing and growth out");
 }
 
 /// The nodes of a grid are what they are.
@@ -256,19 +258,8 @@ void warn_if_coarse(const PlannedStage& planned, Program& p) {
   const double needed = planned.model.source().suggestions.resolution_or_default(), nodes = s.size / p.edge;
   if (nodes < needed)
     p.warnings.push_back((p.stages.size() > 1 ? s.name + ": " : "") + "the wavelength is " + number(nodes, 3) +
-                         " cells of the grid, fewer than the " + number(needed) +
-                         " that the model needs: the grid itself may show in the pattern");
-}
-
-/// On the nodes of a shape as they are, with its mesh.
-Program bind_nodes(const Plan& plan, TriangleMesh shape, const ShapeScale& scale, std::vector<Texture> images) {
-  require_fitting(plan, shape, scale);
-  require_at_rest(plan);
-  Program p = begin_program(plan, std::move(images));
-  p.method = grid_method_of(plan);
-  p.shape = std::make_shared<const TriangleMesh>(std::move(shape));
-  p.edge = *scale.cell;
-  return p;
+                         " times the distance of the nodes, fewer than the " + number(needed) +
+                         " that the model needs: the nodes themselves may show in the pattern");
 }
 
 void bind_stages(const Plan& plan, const ShapeScale& scale, const Point& period, Program& p) {
@@ -282,45 +273,28 @@ void bind_stages(const Plan& plan, const ShapeScale& scale, const Point& period,
   count_iterations(plan, p);
 }
 
-Program bind_grid(const Plan& plan, std::shared_ptr<const Grid> grid, TriangleMesh shape, std::vector<Texture> images) {
-  if (!grid->even()) require_no_lattice(plan);
-  if (!plan.textures.empty() && !shape.find("uv")) shape.set(uv_of(*grid));
-  const ShapeScale scale = scale_of(*grid);
-  Program p = bind_nodes(plan, std::move(shape), scale, std::move(images));
-  p.grid = std::move(grid);
-  bind_stages(plan, scale, period_of(*p.grid), p);
-  return p;
-}
-
-Program bind_atlas(const Plan& plan, std::shared_ptr<const Atlas> atlas, TriangleMesh shape,
-                   std::vector<Texture> images) {
-  require_no_lattice(plan);
-  ShapeScale scale = scale_of(shape);
-  scale.cell = prevailing_edge(shape.triangles, shape.points);
-  Program p = bind_nodes(plan, std::move(shape), scale, std::move(images));
-  p.atlas = std::move(atlas);
-  if (!p.method->make_atlas_space)
-    throw Error(Fault::usage, "the method \"" + std::string(p.method->name) + "\" is for single grids");
-  bind_stages(plan, scale, {}, p);
-  return p;
-}
-
 }  // namespace
 
-Program bind_plan(const Plan& plan, std::shared_ptr<const Grid> grid, std::vector<Texture> images) {
-  TriangleMesh shape = mesh_of(*grid);
-  return bind_grid(plan, std::move(grid), std::move(shape), std::move(images));
-}
-
-Program bind_plan(const Plan& plan, std::shared_ptr<const Atlas> atlas, std::vector<Texture> images) {
-  TriangleMesh shape = mesh_of(*atlas);
-  return bind_atlas(plan, std::move(atlas), std::move(shape), std::move(images));
+Program bind_plan(const Plan& plan, std::shared_ptr<const NodeShape> nodes, TriangleMesh mesh,
+                  std::vector<Texture> images) {
+  const Grid* grid = as<Grid>(nodes);
+  if (!grid || !grid->even()) require_no_lattice(plan);
+  if (grid && !plan.textures.empty() && !mesh.find("uv")) mesh.set(uv_of(*grid));
+  const ShapeScale scale = scale_of(*nodes, mesh);
+  require_fitting(plan, mesh, scale);
+  require_at_rest(plan);
+  Program p = begin_program(plan, std::move(images));
+  p.method = node_method_of(plan, *nodes);
+  p.nodes = std::move(nodes);
+  p.shape = std::make_shared<const TriangleMesh>(std::move(mesh));
+  p.edge = *scale.cell;
+  bind_stages(plan, scale, grid ? period_of(*grid) : Point{}, p);
+  return p;
 }
 
 Program bind_plan(const Plan& plan, ShapeFile& shape, std::vector<Texture> images) {
-  if (shape.grid) return bind_grid(plan, shape.grid, std::move(shape.mesh), std::move(images));
-  if (shape.atlas) return bind_atlas(plan, shape.atlas, std::move(shape.mesh), std::move(images));
-  return bind_plan(plan, std::move(shape.mesh), std::move(images));
+  return shape.nodes ? bind_plan(plan, shape.nodes, std::move(shape.mesh), std::move(images))
+                     : bind_plan(plan, std::move(shape.mesh), std::move(images));
 }
 
 Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> images) {
@@ -351,7 +325,9 @@ Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> ima
 
 Program make_program(const Recipe& recipe, Grid grid) {
   require_sound(grid);
-  return bind_plan(plan(recipe), std::make_shared<const Grid>(std::move(grid)), read_images(recipe.textures));
+  TriangleMesh mesh = mesh_of(grid);
+  return bind_plan(plan(recipe), std::make_shared<const NodeShape>(std::move(grid)), std::move(mesh),
+                   read_images(recipe.textures));
 }
 
 Program make_program(const Recipe& recipe, TriangleMesh shape) {

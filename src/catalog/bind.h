@@ -11,9 +11,10 @@ namespace pelage {
 /// recipe, for attributes that the shape does not have, maps of the size that are not greater than 0, and formulas that
 /// mark no vertex; Error(Fault::input) for a shape without extent, and for uv that images need and it lacks.
 Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> images = {});
-/// The same on a grid. Error(Fault::usage) also for what a grid cannot do, by moving say.
-Program bind_plan(const Plan& plan, std::shared_ptr<const Grid> grid, std::vector<Texture> images = {});
-Program bind_plan(const Plan& plan, std::shared_ptr<const Atlas> atlas, std::vector<Texture> images = {});
+/// The same on nodes that are what they are, and the mesh that has them for vertices. Error(Fault::usage) also for what
+/// they cannot do: a grid cannot move.
+Program bind_plan(const Plan& plan, std::shared_ptr<const NodeShape> nodes, TriangleMesh mesh,
+                  std::vector<Texture> images = {});
 /// The same on whichever of these a shape is. Its mesh is taken out of it.
 Program bind_plan(const Plan& plan, ShapeFile& shape, std::vector<Texture> images = {});
 

@@ -101,8 +101,9 @@ TriangleMesh Growth::dress(const Look& look) const {
 
 Grid Growth::dress_grid() const {
   const CoatFields fields = parts_->run.fields();
-  if (!fields.grid) throw Error(Fault::usage, "the coat has grown on a surface, not on a grid");
-  return on_grid(*fields.grid, dress());
+  const Grid* grid = as<Grid>(fields.nodes);
+  if (!grid) throw Error(Fault::usage, "the coat has not grown on a grid");
+  return on_grid(*grid, dress());
 }
 
 std::vector<Growth::Field> Growth::fields() const {

@@ -77,7 +77,7 @@ std::string what_stepper_cannot(const StepperKind& stepper, const Method& method
   if (!stepper.couples && !model.coupled().empty())
     return "grow \"" + model.name() + "\", whose species are coupled by lap()";
   if (!stepper.holds && model.held()) return "hold parts of the surface";
-  if (stepper.lattice && !method.make_grid_space) return "grow on a surface: it is for even grids";
+  if (stepper.lattice && !method.make_node_space) return "grow on a surface: it is for even grids";
   if (!method.symmetric && (stepper.symmetric || !model.coupled().empty()))
     return "grow \"" + model.name() + "\" with the method \"" + std::string(method.name) +
            "\", whose matrices are not symmetric";

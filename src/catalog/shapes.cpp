@@ -83,13 +83,13 @@ ShapeFile made(const Description& d) {
   if (d.patches) {
     Atlas atlas = parse_patches(d.text, d.file, d.refine);
     file.mesh = mesh_of(atlas);
-    file.atlas = std::make_shared<const Atlas>(std::move(atlas));
+    file.nodes = std::make_shared<const NodeShape>(std::move(atlas));
     return file;
   }
   GeneratedGrid generated = generate(parse_region(d.text, d.file), {.nodes = d.nodes});
   file.mesh = mesh_of(generated.grid);
   file.findings = std::move(generated.findings);
-  file.grid = std::make_shared<const Grid>(std::move(generated.grid));
+  file.nodes = std::make_shared<const NodeShape>(std::move(generated.grid));
   return file;
 }
 

@@ -1,11 +1,15 @@
 #include "catalog/size.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "base/box.h"
 #include "base/length_unit.h"
 #include "base/number.h"
 #include "shape/grid.h"
+#include "shape/refine.h"
+#include "shape/tet_mesh.h"
 
 namespace pelage {
 
@@ -32,24 +36,38 @@ void require_fraction(const char* what, const std::optional<Given<Length>>& leng
               length->where);
 }
 
+struct NodeDistance {
+  const TriangleMesh& mesh;
+  double operator()(const Grid& grid) const { return mean_edge(grid); }
+  double operator()(const Atlas&) const { return prevailing_edge(mesh.triangles, mesh.points); }
+  // Within that radius of a point lie about 4 pi others (Turk 1991, section 4.1).
+  double operator()(const Cells& cells) const { return std::sqrt(std::numbers::inv_sqrt3 / 2) * cells.radius; }
+  double operator()(const TetMesh& volume) const { return mean_edge(volume); }
+};
+
 }  // namespace
 
-ShapeScale scale_of(const TriangleMesh& shape) {
-  const Box box = box_of(shape.points);
-  ShapeScale scale{box.diagonal(), 0, box.middle(), shape.metres_per_unit, {}};
+namespace {
+
+ShapeScale scale_of(const Box& box, const std::optional<double>& metres_per_unit) {
+  ShapeScale scale{box.diagonal(), 0, box.middle(), metres_per_unit, {}};
   for (std::size_t k = 0; k < 3; ++k) scale.longest = std::max(scale.longest, box.high[k] - box.low[k]);
   return scale;
 }
 
-ShapeScale scale_of(const Grid& grid) {
-  ShapeScale scale;
-  scale.metres_per_unit = grid.metres_per_unit;
-  scale.cell = mean_edge(grid);
-  const Box box = box_of_cells(grid);
-  scale.diagonal = box.diagonal();
-  scale.middle = box.middle();
-  for (std::size_t k = 0; k < 3; ++k) scale.longest = std::max(scale.longest, box.high[k] - box.low[k]);
+}  // namespace
+
+ShapeScale scale_of(const TriangleMesh& shape) { return scale_of(box_of(shape.points), shape.metres_per_unit); }
+
+ShapeScale scale_of(const NodeShape& nodes, const TriangleMesh& mesh) {
+  const Grid* grid = std::get_if<Grid>(&nodes);
+  ShapeScale scale = scale_of(grid ? box_of_cells(*grid) : box_of(mesh.points), mesh.metres_per_unit);
+  scale.cell = std::visit(NodeDistance{mesh}, nodes);
   return scale;
+}
+
+ShapeScale scale_of(const ShapeFile& shape) {
+  return shape.nodes ? scale_of(*shape.nodes, shape.mesh) : scale_of(shape.mesh);
 }
 
 double world_length(const Given<Length>& length, const ShapeScale& scale) {

@@ -1,9 +1,8 @@
 #pragma once
 // How large the pattern of a stage becomes in the world.
 
-#include "pelage/grid.h"
+#include "pelage/io.h"
 #include "pelage/recipe.h"
-#include "pelage/triangle_mesh.h"
 
 namespace pelage {
 
@@ -16,11 +15,13 @@ struct ShapeScale {
   double longest = 0;                     ///< side of it
   Point middle{};                         ///< of it
   std::optional<double> metres_per_unit;  ///< nothing where nobody knows
-  std::optional<double> cell;             ///< mean edge of a grid's cells [world units]; nothing on surfaces
+  std::optional<double> cell;  ///< mean distance of neighbours among given nodes [world units]; nothing on surfaces
 };
 
 ShapeScale scale_of(const TriangleMesh& shape);
-ShapeScale scale_of(const Grid& grid);
+/// `mesh` is that of the nodes.
+ShapeScale scale_of(const NodeShape& nodes, const TriangleMesh& mesh);
+ShapeScale scale_of(const ShapeFile& shape);
 
 /// In world units. Error(usage), located, for metres on a shape whose unit nobody knows, and for cells on a surface.
 double world_length(const Given<Length>& length, const ShapeScale& scale);

@@ -7,7 +7,7 @@
 
 #include "discretise/method.h"
 #include "discretise/simulation_mesh.h"
-#include "pelage/atlas.h"
+#include "pelage/node_shape.h"
 #include "pelage/triangle_mesh.h"
 #include "shape/texture.h"
 
@@ -16,8 +16,7 @@ namespace pelage {
 /// Of one moment of a run; what does not change is shared with it.
 struct CoatFields {
   std::shared_ptr<const TriangleMesh> shape;   ///< the mesh that the user gave, repaired
-  std::shared_ptr<const Grid> grid;            ///< of which `shape` is the mesh, and there is no hierarchy; else null
-  std::shared_ptr<const Atlas> atlas;          ///< likewise
+  std::shared_ptr<const NodeShape> nodes;      ///< of which `shape` is the mesh, and there is no hierarchy; else null
   std::vector<Point> points;                   ///< where its vertices are now
   std::vector<Texture> textures;               ///< that layers may read
   std::shared_ptr<const Hierarchy> hierarchy;  ///< of the shape; the fields live on its finest level, or on a

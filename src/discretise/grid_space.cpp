@@ -522,8 +522,14 @@ std::shared_ptr<const Space> GridSpace::moved(std::vector<Point> control) const 
 
 namespace {
 
-std::shared_ptr<const Space> grid_space(const Grid& grid) { return std::make_shared<const GridSpace>(grid); }
-std::shared_ptr<const Space> atlas_space(const Atlas& atlas) { return std::make_shared<const GridSpace>(atlas); }
+std::shared_ptr<const Space> node_space(const NodeShape& nodes) {
+  if (const Atlas* atlas = std::get_if<Atlas>(&nodes)) return std::make_shared<const GridSpace>(*atlas);
+  return std::make_shared<const GridSpace>(std::get<Grid>(nodes));
+}
+
+bool is_of_sheets(const NodeShape& nodes) {
+  return std::holds_alternative<Grid>(nodes) || std::holds_alternative<Atlas>(nodes);
+}
 
 }  // namespace
 
@@ -538,7 +544,7 @@ constexpr Method grid_method = {.name = "grid",
                                 .edges = 1,
                                 .max_valence = std::numeric_limits<Index>::max(),
                                 .safe_anisotropy = 2,
-                                .make_grid_space = grid_space,
-                                .make_atlas_space = atlas_space};
+                                .make_node_space = node_space,
+                                .fits = is_of_sheets};
 
 }  // namespace pelage

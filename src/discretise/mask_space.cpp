@@ -217,7 +217,11 @@ std::vector<Tensor> MaskSpace::tensors(const std::vector<Tensor>& lines, const K
   return result;
 }
 
-std::shared_ptr<const Space> mask_space(const Grid& grid) { return std::make_shared<const MaskSpace>(grid); }
+std::shared_ptr<const Space> mask_space(const NodeShape& nodes) {
+  return std::make_shared<const MaskSpace>(std::get<Grid>(nodes));
+}
+
+bool is_grid(const NodeShape& nodes) { return std::holds_alternative<Grid>(nodes); }
 
 }  // namespace
 
@@ -232,7 +236,8 @@ constexpr Method mask_method = {.name = "masks",
                                 .edges = 1,
                                 .max_valence = std::numeric_limits<Index>::max(),
                                 .safe_anisotropy = 2,
-                                .make_grid_space = mask_space,
+                                .make_node_space = mask_space,
+                                .fits = is_grid,
                                 .symmetric = false};
 
 }  // namespace pelage

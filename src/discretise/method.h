@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "discretise/space.h"
-#include "pelage/atlas.h"
+#include "pelage/node_shape.h"
 #include "shape/hierarchy.h"
 
 namespace pelage {
@@ -30,10 +30,10 @@ struct Method {
   /// coarsest resolution, no faster than they do without anisotropy but for a percent of their rate (Loop) or for a few
   /// (linear, whose error is 17 % to begin with, and remeshed): tests/run/anisotropy_test.cpp measures it.
   double safe_anisotropy;
-  /// On the nodes of a grid (pelage/grid.h), for methods that are for grids; of these alone `make_space` is null.
-  std::shared_ptr<const Space> (*make_grid_space)(const Grid& grid) = nullptr;
-  /// On the nodes of patches that are sewn together; null: the method cannot do that.
-  std::shared_ptr<const Space> (*make_atlas_space)(const Atlas& atlas) = nullptr;
+  /// On the nodes of the kinds of shapes that the method is for; of methods that have one `make_space` is null.
+  std::shared_ptr<const Space> (*make_node_space)(const NodeShape& nodes) = nullptr;
+  /// Whether it is for that shape.
+  bool (*fits)(const NodeShape& nodes) = nullptr;
   bool symmetric = true;  ///< its stiffness matrices are
 };
 

@@ -173,7 +173,7 @@ ShapeFile grid_shape(GridFile grid) {
   ShapeFile file;
   file.mesh = mesh_of(grid.grid);
   file.findings = std::move(grid.findings);
-  file.grid = std::make_shared<const Grid>(std::move(grid.grid));
+  file.nodes = std::make_shared<const NodeShape>(std::move(grid.grid));
   return file;
 }
 

@@ -202,7 +202,7 @@ Tessellation nodes_of_shape(const CoatFields& fields, const TessellationRequest&
 }  // namespace
 
 Tessellation tessellate(const CoatFields& fields, const TessellationRequest& request) {
-  if (fields.grid || fields.atlas) return nodes_of_shape(fields, request);
+  if (fields.nodes) return nodes_of_shape(fields, request);
   return Tessellator(fields, request).make();
 }
 

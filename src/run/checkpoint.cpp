@@ -29,6 +29,12 @@ void add_shape(Fingerprint& f, const TriangleMesh& shape) {
 }
 
 /// What its mesh does not show.
+void add_tets(Fingerprint& f, const TetMesh& volume) {
+  f.add(static_cast<std::uint64_t>(volume.tets.size()));
+  for (const Tetrahedron& t : volume.tets)
+    for (const std::int32_t node : t) f.add(static_cast<std::uint64_t>(node));
+}
+
 void add_grid(Fingerprint& f, const Grid& grid) {
   for (std::size_t d = 0; d < 3; ++d)
     f.add(static_cast<std::uint64_t>(grid.count[d])).add(std::uint64_t{grid.periodic[d]}).add_all(grid.period[d]);
@@ -73,7 +79,8 @@ void add_stage(Fingerprint& f, const StageProgram& s) {
 
 std::uint64_t fingerprint(const Program& program) {
   Fingerprint f;
-  if (program.grid) add_grid(f, *program.grid);
+  if (const Grid* grid = as<Grid>(program.nodes)) add_grid(f, *grid);
+  if (const TetMesh* volume = as<TetMesh>(program.nodes)) add_tets(f, *volume);
   if (program.shape) add_shape(f, *program.shape);
   for (const Texture& t : program.textures) add_texture(f, t);
   f.add(program.method->name).add(std::uint64_t{program.interpolate}).add(program.edge);

@@ -182,36 +182,60 @@ Point tangential(const Point& vector, const Point& normal) {
   return unit({vector[0] - along * normal[0], vector[1] - along * normal[1], vector[2] - along * normal[2]});
 }
 
-}  // namespace
-
-std::vector<Tensor> node_lines(const Grid& grid, const TriangleMesh& shape, const std::optional<FieldWish>& wish) {
-  const bool sheet = grid.dimension() == 2;
+/// Without a surface: the axis or the direction from a centre, or the vectors that the shape brings along; else along
+/// x.
+std::vector<Tensor> lines_in_space(const TriangleMesh& shape, const std::optional<FieldWish>& wish) {
   std::vector<Tensor> lines;
+  if (wish && !is_plain(*wish))
+    throw Error(Fault::usage,
+                "directions of lines, blocks and volumes follow an axis or a centre; others need a surface");
+  const std::optional<GivenDirections> given = wish ? std::nullopt : given_directions(shape);
+  for (std::size_t v = 0; v < shape.points.size(); ++v)
+    lines.push_back(line_tensor(wish    ? plain_direction(*wish, shape.points[v])
+                                : given ? unit(given->vectors[v])
+                                        : Point{1, 0, 0}));
+  return lines;
+}
+
+std::vector<Tensor> plain_lines_on_sheet(const TriangleMesh& shape, const FieldWish& wish) {
+  const std::vector<Point> normals = vertex_normals(shape.triangles, shape.points);
+  std::vector<Tensor> lines;
+  for (std::size_t v = 0; v < shape.points.size(); ++v) {
+    const Point along = tangential(plain_direction(wish, shape.points[v]), normals[v]);
+    lines.push_back(line_tensor(wish.across ? cross(normals[v], along) : along));
+  }
+  return lines;
+}
+
+std::vector<Tensor> grid_lines(const Grid& grid, const TriangleMesh& shape, const std::optional<FieldWish>& wish) {
   if (!wish && component_names(scalar_attributes(shape)).empty()) {
     if (grid.even()) return {line_tensor({1, 0, 0})};
+    std::vector<Tensor> lines;
     for (std::int32_t v = 0; v < static_cast<std::int32_t>(grid.nodes()); ++v)
       lines.push_back(line_tensor(unit(along_first_axis(grid, v))));
     return lines;
   }
-  if (wish && is_plain(*wish)) {
-    if (grid.even() && wish->axis) return {line_tensor(axis_on(grid, *wish))};
-    const std::vector<Point> normals = sheet ? vertex_normals(shape.triangles, shape.points) : std::vector<Point>{};
-    for (std::size_t v = 0; v < shape.points.size(); ++v) {
-      Point along = plain_direction(*wish, shape.points[v]);
-      if (sheet) along = tangential(along, normals[v]);
-      lines.push_back(line_tensor(wish->across && sheet ? cross(normals[v], along) : along));
-    }
-    return lines;
-  }
-  if (sheet) return vertex_lines(shape, wish, make_topology(shape.points.size(), shape.triangles));
-  if (wish) throw Error(Fault::usage, "directions of lines and blocks follow an axis; others need a surface");
-  const std::optional<GivenDirections> given = given_directions(shape);
-  for (const Point& d : given->vectors) lines.push_back(line_tensor(unit(d)));
-  return lines;
+  if (wish && wish->axis && is_plain(*wish) && grid.even()) return {line_tensor(axis_on(grid, *wish))};
+  if (grid.dimension() != 2) return lines_in_space(shape, wish);
+  if (wish && is_plain(*wish)) return plain_lines_on_sheet(shape, *wish);
+  return vertex_lines(shape, wish, make_topology(shape.points.size(), shape.triangles));
 }
 
-FollowedDirections followed_directions(const TriangleMesh& shape, const std::optional<FieldWish>& wish, bool of_grid) {
-  const std::string smoothest = of_grid ? "the first axis of the grid" : "the smoothest field of lines";
+}  // namespace
+
+std::vector<Tensor> node_lines(const NodeShape& nodes, const TriangleMesh& shape,
+                               const std::optional<FieldWish>& wish) {
+  if (const Grid* grid = std::get_if<Grid>(&nodes)) return grid_lines(*grid, shape, wish);
+  if (std::holds_alternative<Atlas>(nodes))
+    return vertex_lines(shape, wish, make_topology(shape.points.size(), shape.triangles));
+  return lines_in_space(shape, wish);
+}
+
+FollowedDirections followed_directions(const TriangleMesh& shape, const std::optional<FieldWish>& wish,
+                                       const NodeShape* nodes) {
+  const std::string smoothest = nodes && std::holds_alternative<Grid>(*nodes)      ? "the first axis of the grid"
+                                : nodes && std::holds_alternative<TetMesh>(*nodes) ? "the x axis"
+                                                                                   : "the smoothest field of lines";
   if (wish) return {"the directions of the recipe" + not_followed(shape, 0), ""};
   const auto given = given_directions(shape);
   if (!given) return {smoothest, ""};

@@ -6,7 +6,7 @@
 
 #include "direction/guides.h"
 #include "discretise/anisotropy.h"
-#include "pelage/grid.h"
+#include "pelage/node_shape.h"
 #include "shape/topology.h"
 
 namespace pelage {
@@ -19,18 +19,18 @@ namespace pelage {
 std::vector<Tensor> vertex_lines(const TriangleMesh& shape, const std::optional<FieldWish>& wish,
                                  const Topology& topology);
 
-/// The same at the nodes of a grid, whose mesh is `shape`: without a wish and "direction" its first axis; an axis or a
-/// centre alone is followed as it is, without smoothing. One line where it is the same for all nodes.
-/// Error(Fault::usage) for wishes that only surfaces grant where it is none.
-std::vector<Tensor> node_lines(const Grid& grid, const TriangleMesh& shape, const std::optional<FieldWish>& wish);
+/// The same at nodes that are what they are, whose mesh is `shape`: on a grid without a wish and "direction" its first
+/// axis, in a volume without any x; an axis or a centre alone is followed as it is, without smoothing. One line where
+/// it is the same for all nodes. Error(Fault::usage) for wishes that only surfaces grant where it is none.
+std::vector<Tensor> node_lines(const NodeShape& nodes, const TriangleMesh& shape, const std::optional<FieldWish>& wish);
 
-/// What vertex_lines or, with a grid, node_lines follows, a line for people each.
+/// What vertex_lines or, with nodes, node_lines follows, a line for people each.
 struct FollowedDirections {
   std::string text;     ///< "direction_x, direction_y, direction_z of the shape", ...
   std::string warning;  ///< of directions of the shape that say nothing; or empty
 };
 FollowedDirections followed_directions(const TriangleMesh& shape, const std::optional<FieldWish>& wish,
-                                       bool of_grid = false);
+                                       const NodeShape* nodes = nullptr);
 
 /// All attributes of a shape that hold directions or a component of them.
 std::vector<std::string> direction_attributes(const TriangleMesh& shape);

@@ -75,10 +75,7 @@ TriangleMesh shape_now(const Program& program, const World& world) {
 }
 
 std::vector<Tensor> lines_at_nodes(const Program& program, const StageProgram& stage, const World& world) {
-  if (program.grid) return node_lines(*program.grid, *program.shape, stage.directions);
-  if (program.atlas)
-    return vertex_lines(*program.shape, stage.directions,
-                        make_topology(program.shape->points.size(), program.shape->triangles));
+  if (program.nodes) return node_lines(*program.nodes, *program.shape, stage.directions);
   if (!world.hierarchy()) return {};  // a space that was given
   return world.at_nodes(vertex_lines(shape_now(program, world), stage.directions, world.hierarchy()->topology(0)));
 }

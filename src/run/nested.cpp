@@ -53,9 +53,9 @@ Program on(const Grid& coarse, const Program& program) {
   Program p = program;
   Grid grid = coarse;
   for (const Attribute& a : program.shape->attributes)
-    if (a.domain == Domain::vertex) grid.set(at_every_second_node(a, *program.grid, coarse));
+    if (a.domain == Domain::vertex) grid.set(at_every_second_node(a, *as<Grid>(program.nodes), coarse));
   p.shape = std::make_shared<const TriangleMesh>(mesh_of(grid));
-  p.grid = std::make_shared<const Grid>(std::move(grid));
+  p.nodes = std::make_shared<const NodeShape>(std::move(grid));
   p.stages.resize(1);
   return p;
 }
@@ -84,15 +84,16 @@ std::optional<Grid> every_second_node(const Grid& grid) {
 
 int grow_nested(Run& run) {
   const Program& program = run.program();
-  if (!program.grid) return 0;
-  const std::optional<Grid> coarse = every_second_node(*program.grid);
+  const Grid* grid = as<Grid>(program.nodes);
+  if (!grid) return 0;
+  const std::optional<Grid> coarse = every_second_node(*grid);
   if (!coarse || !resolves(*coarse, program.stages[0].size)) return 0;
   Run first(on(*coarse, program));
   const int levels = grow_nested(first);
   while (first.summary().status == RunStatus::running) first.advance(1);
   if (first.summary().status == RunStatus::failed) return 0;
   std::vector<Vector> fields;
-  for (const Vector& u : first.coefficients()) fields.push_back(continued(u, *coarse, *program.grid));
+  for (const Vector& u : first.coefficients()) fields.push_back(continued(u, *coarse, *grid));
   run.start_from(std::move(fields));
   return levels + 1;
 }

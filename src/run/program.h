@@ -7,9 +7,8 @@
 
 #include "direction/guides.h"
 #include "discretise/method.h"
-#include "pelage/atlas.h"
 #include "pelage/fair.h"
-#include "pelage/grid.h"
+#include "pelage/node_shape.h"
 #include "pelage/triangle_mesh.h"
 #include "react/model.h"
 #include "run/borders.h"
@@ -57,8 +56,7 @@ struct StageProgram {
 
 struct Program {
   std::shared_ptr<const TriangleMesh> shape;  ///< repaired control mesh; null where a run is given its space
-  std::shared_ptr<const Grid> grid;           ///< of which `shape` is the mesh; else null
-  std::shared_ptr<const Atlas> atlas;         ///< likewise
+  std::shared_ptr<const NodeShape> nodes;     ///< of which `shape` is the mesh; null on surfaces
   std::vector<Texture> textures;              ///< laid on the shape by its "uv"
   const Method* method = &loop_method;
   bool interpolate = false;   ///< the surface goes through the vertices of the shape

@@ -417,8 +417,7 @@ std::string Run::why_uniform() const {
 CoatFields Run::fields() const {
   CoatFields f;
   f.shape = program_->shape;
-  f.grid = program_->grid;
-  f.atlas = program_->atlas;
+  f.nodes = program_->nodes;
   f.period = stage_program().period;
   f.points = world_.points();
   f.textures = program_->textures;

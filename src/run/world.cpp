@@ -16,12 +16,8 @@ World::World(std::shared_ptr<const Program> program, const Progress& progress) :
   const TriangleMesh& shape = *program_->shape;
   if (program_->motion.any()) surface_ = std::make_unique<MovingSurface>(shape, program_->motion);
   report(progress, "refining", 0);
-  if (program_->grid) {
-    space_ = program_->method->make_grid_space(*program_->grid);
-    return;
-  }
-  if (program_->atlas) {
-    space_ = program_->method->make_atlas_space(*program_->atlas);
+  if (program_->nodes) {
+    space_ = program_->method->make_node_space(*program_->nodes);
     return;
   }
   auto hierarchy =

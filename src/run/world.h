@@ -22,7 +22,7 @@ class World {
 
   const Space& space() const { return *space_; }
   const std::shared_ptr<const Space>& shared_space() const { return space_; }
-  /// Null on grids and atlases, and where a run is given its space.
+  /// Null on shapes whose nodes are what they are, and where a run is given its space.
   const std::shared_ptr<const Hierarchy>& hierarchy() const { return hierarchy_; }
   int levels() const { return hierarchy_ ? hierarchy_->finest() : 0; }
   /// Triangles between the nodes of the space, which has a hierarchy.

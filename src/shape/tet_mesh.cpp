@@ -1,6 +1,7 @@
 #include "shape/tet_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pelage {
 
@@ -26,6 +27,18 @@ void TetMesh::set(Attribute attribute) {
     attributes.push_back(std::move(attribute));
   else
     *it = std::move(attribute);
+}
+
+double mean_edge(const TetMesh& volume) {
+  double sum = 0;
+  for (const Tetrahedron& t : volume.tets)
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t l = 0; l < k; ++l) {
+        const Point &a = volume.points[static_cast<std::size_t>(t[k])],
+                    &b = volume.points[static_cast<std::size_t>(t[l])];
+        sum += std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+      }
+  return sum / static_cast<double>(6 * volume.tets.size());
 }
 
 TriangleMesh mesh_of(const TetMesh& volume) {

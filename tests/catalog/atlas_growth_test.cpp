@@ -68,7 +68,7 @@ TEST(AtlasGrowth, TheCubedSphereHasTheEigenvaluesOfTheSphere) {
   // A third as many cells as in the file, and two thirds.
   const auto space = [](std::int32_t nodes) {
     const ShapeFile file = find_shape("builtin:cube-sphere");
-    std::vector<Atlas::Patch> coarse = file.atlas->patches;
+    std::vector<Atlas::Patch> coarse = as<Atlas>(file.nodes)->patches;
     const std::int32_t n = coarse[0].grid.count[0], every = (n - 1) / (nodes - 1);
     for (Atlas::Patch& p : coarse) {
       Grid grid;
@@ -146,7 +146,7 @@ TEST(AtlasGrowth, NothingOfTheSeamsShowsInThePattern) {
   std::vector<double> means, variances;
   double patched = 0, plain = 0;
   for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
-    const CoatRun run = grown(bind_plan(plan(spots(size, seed)), file.atlas));
+    const CoatRun run = grown(bind_plan(plan(spots(size, seed)), file.nodes, file.mesh));
     const Vector& u = run.coefficients()[1];
     const Vector& weight = run.system().sampling->weight;
     const auto at_seam = [&](Eigen::Index v) {
@@ -166,8 +166,8 @@ TEST(AtlasGrowth, NothingOfTheSeamsShowsInThePattern) {
 
 TEST(AtlasGrowth, AMoebiusBandGrowsACoatToo) {
   const ShapeFile file = find_shape("builtin:moebius");
-  EXPECT_TRUE(file.atlas->one_sided);
-  const CoatRun run = grown(bind_plan(plan(spots(0.35, 1)), file.atlas));
+  EXPECT_TRUE(as<Atlas>(file.nodes)->one_sided);
+  const CoatRun run = grown(bind_plan(plan(spots(0.35, 1)), file.nodes, file.mesh));
   EXPECT_FALSE(run.uniform());
   EXPECT_NEAR(wavelength_of(run) / 0.35, 1, 0.15);
 }
@@ -216,8 +216,8 @@ TEST(AtlasGrowth, AStretchedParametrisationLeavesThePatternAlone) {
   std::array<double, 2> corrected{}, plain{}, uncorrected{};
   constexpr int seeds = 3;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    const CoatRun on_surface = grown(bind_plan(plan(spots(size, seed)), std::make_shared<const Grid>(s.curved))),
-                  in_parameters = grown(bind_plan(plan(spots(size, seed)), std::make_shared<const Grid>(s.even)));
+    const CoatRun on_surface = grown(make_program(spots(size, seed), s.curved)),
+                  in_parameters = grown(make_program(spots(size, seed), s.even));
     const GridSpace flat(s.even);
     for (std::size_t k = 0; k < 2; ++k) {
       const auto add = [&](const auto& takes) {

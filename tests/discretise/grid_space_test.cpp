@@ -568,7 +568,7 @@ TEST(GridSpace, SameBitsForAnyNumberOfThreads) {
 TEST(GridSpace, GridsThatAreNotSoundAreRefused) {
   Grid g = even_grid({5, 4, 1});
   g.spacing[1] = 0;
-  EXPECT_THROW(grid_method.make_grid_space(g), Error);
+  EXPECT_THROW(grid_method.make_node_space(g), Error);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ Grid sheet(std::int32_t n, bool periodic) {
 TEST(MaskSpace, IsTheMaskOfThePaper) {
   Grid g = sheet(5, true);
   g.spacing = {0.5, 0.5, 1};
-  const auto space = mask_method.make_grid_space(g);
+  const auto space = mask_method.make_node_space(g);
   const double a11 = 3, a12 = 0.5, a22 = 1, h = 0.5;
   const SparseMatrix k = space->stiffness(std::vector<Tensor>(25, {a11, a12, 0, a22, 0, 0}));
   const SharedMatrix mass = space->sampled(SampleRule::vertices).mass;
@@ -45,7 +45,7 @@ TEST(MaskSpace, IsTheMaskOfThePaper) {
 
 /// Of A_ij d_i d_j u with A that varies, relative to the largest value.
 double worst_error(std::int32_t n, bool periodic) {
-  const auto space = mask_method.make_grid_space(sheet(n, periodic));
+  const auto space = mask_method.make_node_space(sheet(n, periodic));
   std::vector<Tensor> a;
   Vector u(space->unknowns()), expected = u;
   for (Index v = 0; v < space->unknowns(); ++v) {
@@ -68,14 +68,14 @@ TEST(MaskSpace, DifferencesAreOfSecondOrderAndBordersAreMirrors) {
 }
 
 TEST(MaskSpace, AConstantHasNoFluxAndTheMassIsTheArea) {
-  const auto space = mask_method.make_grid_space(sheet(9, false));
+  const auto space = mask_method.make_node_space(sheet(9, false));
   const Vector ones = Vector::Ones(space->unknowns());
   EXPECT_LT((*space->stiffness() * ones).lpNorm<Eigen::Infinity>(), 1e-14);
   EXPECT_NEAR(sum(*space->sampled(SampleRule::vertices).mass * ones), 1, 1e-14);
 }
 
 TEST(MaskSpace, GradientsAreCentralDifferences) {
-  const auto space = mask_method.make_grid_space(sheet(64, true));
+  const auto space = mask_method.make_node_space(sheet(64, true));
   Vector u(space->unknowns()), expected = u;
   for (Index v = 0; v < space->unknowns(); ++v) {
     const auto [x, y, z] = space->control()[static_cast<std::size_t>(v)];
@@ -88,10 +88,10 @@ TEST(MaskSpace, GradientsAreCentralDifferences) {
 TEST(MaskSpace, OtherGridsAreRefused) {
   Grid block = sheet(5, false);
   block.count[2] = 3;
-  EXPECT_THROW(mask_method.make_grid_space(block), Error);
+  EXPECT_THROW(mask_method.make_node_space(block), Error);
   Grid line = sheet(5, false);
   line.count[1] = 1;
-  EXPECT_THROW(mask_method.make_grid_space(line), Error);
+  EXPECT_THROW(mask_method.make_node_space(line), Error);
 }
 
 /// A sheet of parallelograms in space, a and b along their sides; between nodes nothing but the metric is left.
@@ -112,7 +112,7 @@ Grid oblique(std::int32_t n, const Point& a, const Point& b) {
 /// A = I becomes the inverse of the metric: the weights of the mask are its entries.
 TEST(MaskSpace, OnASurfaceTheUnitTensorBecomesTheInverseOfTheMetric) {
   const Point a{1, 0.2, 0.3}, b{-0.4, 2, 0.1};
-  const auto space = mask_method.make_grid_space(oblique(6, a, b));
+  const auto space = mask_method.make_node_space(oblique(6, a, b));
   Eigen::Matrix<double, 3, 2> jacobian;
   for (Eigen::Index d = 0; d < 3; ++d)
     jacobian.row(d) << a[static_cast<std::size_t>(d)], b[static_cast<std::size_t>(d)];

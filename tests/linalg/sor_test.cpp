@@ -26,7 +26,7 @@ Problem elliptic(std::int32_t n) {
     const double x = static_cast<double>(v % n) / (n - 1), y = static_cast<double>(v / n) / (n - 1);
     g.points.push_back({x + 0.3 * x * (1 - x) * y, y + 0.2 * std::sin(3 * x) * y * (1 - y), 0.3 * x * y});
   }
-  const auto space = grid_method.make_grid_space(g);
+  const auto space = grid_method.make_node_space(g);
   std::vector<Tensor> tensors;
   for (const Point& p : space->geometry(SampleRule::quadrature, false).position)
     tensors.push_back({0.02 + 0.01 * std::sin(5 * p[1]), 0.004, 0, 0.01, 0.001, 0.01});

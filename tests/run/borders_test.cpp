@@ -56,7 +56,7 @@ double error_on(const Grid& grid, const Exact& exact, Kind kind, const StepperKi
   stage.step = stage.suggested_step = 0.0005;
   stage.until = 0.1;
   for (const auto& [side, slope] : exact.slope) stage.borders.push_back(condition(exact, side, slope, kind));
-  Growth run(std::make_shared<const Program>(std::move(program)), World(grid_method.make_grid_space(grid)));
+  Growth run(std::make_shared<const Program>(std::move(program)), World(grid_method.make_node_space(grid)));
   run.advance(1000);
   EXPECT_NE(run.summary().status, RunStatus::failed) << run.summary().message;
   EXPECT_NEAR(run.summary().time, 0.1, 1e-9);
@@ -174,9 +174,9 @@ std::string fault_of(const std::string& boundary, bool periodic = false, const s
   Grid g = square(8, false);
   g.periodic = {periodic, periodic, false};
   try {
-    bind_plan(plan(parse_recipe(
-                  "[stage]\nmodel = \"turing\"\nsize = \"4px\"\n" + more + "[stage.boundary]\n" + boundary, "r.toml")),
-              std::make_shared<const Grid>(g), {});
+    make_program(parse_recipe("[stage]\nmodel = \"turing\"\nsize = \"4px\"\n" + more + "[stage.boundary]\n" + boundary,
+                              "r.toml"),
+                 g);
     return {};
   } catch (const Error& error) {
     return error.what();
@@ -211,7 +211,7 @@ TEST(Borders, WhatComesInStaysThere) {
   stage.until = 1;
   BorderCondition& c = stage.borders.emplace_back(BorderCondition{"ymax", {}, 0, {}, {}, {}});
   c.flux.emplace(Formula{"3", {}}, std::map<std::string, double>{});
-  Growth run(std::make_shared<const Program>(std::move(program)), World(grid_method.make_grid_space(g)));
+  Growth run(std::make_shared<const Program>(std::move(program)), World(grid_method.make_node_space(g)));
   run.advance(1000);
   EXPECT_NEAR(sum(*run.system().mass * run.coefficients()[0]), 1 + 3 * length_unit, 1e-9);
 }

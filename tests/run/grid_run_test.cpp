@@ -38,7 +38,7 @@ Growth grow_on(const Grid& grid, const std::string& model, const StepperKind& st
   Program program;
   program.method = &method;
   program.stages.push_back(stage_of(model, stepper, size));
-  return Growth(std::make_shared<const Program>(std::move(program)), World(method.make_grid_space(grid)));
+  return Growth(std::make_shared<const Program>(std::move(program)), World(method.make_node_space(grid)));
 }
 
 TEST(GridRun, APatternGrowsOnATileAtItsSize) {

@@ -25,7 +25,7 @@ Program program_on(const Grid& grid, const std::string& model, const StepperKind
   Program program;
   program.method = &grid_method;
   program.shape = std::make_shared<const TriangleMesh>(mesh_of(grid));
-  program.grid = std::make_shared<const Grid>(grid);
+  program.nodes = std::make_shared<const NodeShape>(grid);
   program.stages.push_back(stage_of(model, stepper, size));
   return program;
 }
