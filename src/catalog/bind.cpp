@@ -181,8 +181,9 @@ const Method* node_method_of(const Plan& plan, const NodeShape& nodes) {
   const auto fits = [&](const Method* m) { return m->fits && m->fits(nodes); };
   const Method* fitting = *std::ranges::find_if(methods(), fits);
   if (!plan.method_asked) return fitting;
-  throw Error(Fault::usage, "the method \"" + std::string(plan.method->name) +
-                                "\" is not for shapes of this kind; take \"" + std::string(fitting->name) + "\"");
+  throw Error(Fault::usage, "the method \"" + std::string(plan.method->name) + "\" is for " +
+                                (plan.method->make_space ? "surfaces" : "other shapes") + "; here take \"" +
+                                std::string(fitting->name) + "\"");
 }
 
 /// Before any work: steppers that know waves alone.
