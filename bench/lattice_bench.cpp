@@ -244,6 +244,7 @@ BENCHMARK_CAPTURE(grow, sbdf2, sbdf2, false)->Apply(settings);
 BENCHMARK_CAPTURE(grow, rkc2, rkc2, false)->Apply(settings);
 BENCHMARK_CAPTURE(grow, etd, etd, false)->Apply(settings);
 BENCHMARK_CAPTURE(grow, gaussian, gaussian_stepper, false)->Apply(settings);
+BENCHMARK_CAPTURE(grow, sign iteration, sign_iteration, false)->Apply(settings);
 BENCHMARK_CAPTURE(grow, binary, binary_stepper, false)->Apply(settings);
 BENCHMARK_CAPTURE(grow, rkc2 nested, rkc2, true)->Apply(settings);
 BENCHMARK_CAPTURE(grow, etd nested, etd, true)->Apply(settings);

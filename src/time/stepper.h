@@ -76,6 +76,7 @@ extern const StepperKind semi_implicit;   ///< semi-implicit Euler, eqs. (14)-(1
 extern const StepperKind explicit_euler;  ///< forward Euler
 extern const StepperKind rkc2;  ///< second-order stabilised explicit Runge-Kutta-Chebyshev, in single precision
                                 ///< (Sommeijer, Shampine, Verwer 1997)
+extern const StepperKind sign_iteration;  ///< rounds of implicit solves to the steady state of threshold patterns
 
 // On even grids, of waves that spread and decay exactly:
 extern const StepperKind etd;               ///< exponential time differencing of third order (Cox, Matthews 2002)

@@ -238,6 +238,32 @@ std::vector<char> bits_of(const LatticeSystem& s) {
   return bits;
 }
 
+/// What it comes to rest at is a steady state for a scheme of time that knows nothing of it.
+TEST(SignIteration, ComesToRestAtASteadyStateOfTheEquations) {
+  LatticeSystem s({{tile, tile, 1}, {true, true, false}, {1, 1, 1}});
+  add_zebra(s, 0.5, 0);
+  const auto stepper = make_stepper("sign-iteration");
+  double change = 1;
+  for (int step = 0; step < 20 && change > 0; ++step) {
+    const StepReport report = stepper->step(s.system, s.state, {.dt = 1});
+    ASSERT_TRUE(report.accepted) << report.failure;
+    change = report.change;
+  }
+  EXPECT_EQ(change, 0);
+  const std::vector<Vector> rest = s.state.now;
+  EXPECT_GT((rest[1] - rest[0]).cwiseAbs().mean(), 0.05);
+  advance(s, *make_stepper("etd"), 3, 1.5);
+  for (std::size_t i : {0, 1}) EXPECT_LT((s.state.now[i] - rest[i]).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(SignIteration, NeedsADecayAtAConstantRate) {
+  LatticeSystem s(torus(6, 8));
+  s.add_species(along(0), [](auto...) { return 1.0; });
+  s.set_reaction([](const std::vector<double>&, double, std::vector<double>& c2, std::vector<double>&) { c2[0] = 1; });
+  EXPECT_NE(make_stepper("sign-iteration")->step(s.system, s.state, {.dt = 1}).failure.find("decay"),
+            std::string::npos);
+}
+
 /// Every bit is the sign of the difference of two Gaussians, of the time for which their waves peak at 2 pi sqrt(1.5),
 /// summed over the bits before, 25 times a step.
 TEST(Binary, IteratesADifferenceOfGaussiansOnBits) {
