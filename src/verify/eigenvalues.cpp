@@ -1,6 +1,6 @@
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "base/dense.h"
 #include "linalg/conjugate_gradient.h"
 #include "shape/generators.h"
 #include "verify/figure.h"
@@ -52,10 +52,9 @@ Vector smallest_eigenvalues(const Problem& p) {
       mass_basis.col(k) = p.mass * Vector(basis.col(k));
       stiffness_basis.col(k) = p.stiffness * Vector(basis.col(k));
     }
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(basis.transpose() * stiffness_basis,
-                                                                         basis.transpose() * mass_basis);
-    eigenvalues = ritz.eigenvalues();
-    basis *= ritz.eigenvectors();
+    const Modes ritz = symmetric_modes(basis.transpose() * stiffness_basis, basis.transpose() * mass_basis);
+    eigenvalues = ritz.values;
+    basis *= ritz.vectors;
   }
   return eigenvalues;
 }

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "base/dense.h"
 #include "catalog/bind.h"
 #include "catalog/shapes.h"
 #include "discretise/grid_space.h"
@@ -45,9 +45,9 @@ Vector lowest_eigenvalues(const Space& space) {
       m.col(j) = mass * Vector(basis.col(j));
       k.col(j) = stiffness * Vector(basis.col(j));
     }
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(basis.transpose() * k, basis.transpose() * m);
-    values = ritz.eigenvalues();
-    basis *= ritz.eigenvectors();
+    const Modes ritz = symmetric_modes(basis.transpose() * k, basis.transpose() * m);
+    values = ritz.values;
+    basis *= ritz.vectors;
   }
   return values;
 }

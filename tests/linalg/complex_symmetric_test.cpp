@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+
 #include "base/parallel.h"
 #include "linalg/conjugate_gradient.h"
 #include "support/random_matrices.h"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/dense.h"
 #include "support/random_matrices.h"
 
 namespace pelage {
@@ -50,7 +51,7 @@ std::vector<Vector> solved_densely(const MatrixXd& c, const std::vector<Vector>&
     for (Eigen::Index j = 0; j < c.rows(); ++j)
       a.block(i * size, j * size, size, size) = (i == j ? 1.0 : 0.0) * mass + c(i, j) * stiffness;
   }
-  const Vector all = a.partialPivLu().solve(rhs);
+  const Vector all = solved(a, rhs);
   std::vector<Vector> x;
   for (Eigen::Index i = 0; i < c.rows(); ++i) x.push_back(all.segment(i * size, size));
   return x;

@@ -1,7 +1,7 @@
 #pragma once
 // Sparse matrices with random entries, and their dense copies.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <memory>
 
 #include "base/random.h"
