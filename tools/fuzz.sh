@@ -11,6 +11,8 @@ seeds() {
   case $1 in
     model) echo models ;;
     recipe) echo recipes ;;
+    region) echo regions ;;
+    patches) echo patches ;;
   esac
 }
 

@@ -4,10 +4,12 @@
 #include <memory>
 
 #include "base/length_unit.h"
-#include "catalog/shapes.h"
 #include "command.h"
+#include "input_unit.h"
+#include "node_outputs.h"
 #include "pelage/io.h"
 #include "shape/describe.h"
+#include "shape/tet_cut.h"
 #include "text.h"
 
 namespace pelage {
@@ -81,18 +83,44 @@ Json to_json(const MeshReport& r, const std::string& shape, const std::optional<
           {"findings", json_findings(r.findings)}};
 }
 
+/// The nodes and cells of a volume; empty for other shapes.
+std::string cells_of(const NodeShape* shape) {
+  if (!is_volume(shape)) return "";
+  if (const auto* tets = std::get_if<TetMesh>(shape))
+    return counted(tets->nodes(), "node") + ", " + std::to_string(tets->tets.size()) + " tetrahedra";
+  const Grid& block = std::get<Grid>(*shape);
+  return counted(block.nodes(), "node") + ", " +
+         std::to_string(std::int64_t{block.cells(0)} * block.cells(1) * block.cells(2)) + " cells";
+}
+
+/// Of a volume the skin is described.
+TriangleMesh described(const ShapeFile& file) {
+  if (!is_volume(file.nodes.get())) return file.mesh;
+  const auto* tets = as<TetMesh>(file.nodes);
+  const CarvedBody skin = tets ? carve(*tets, {}) : carve(*as<Grid>(file.nodes), {});
+  TriangleMesh mesh{skin.places(file.mesh.points), skin.triangles, {}, {}, file.mesh.metres_per_unit};
+  for (const Attribute& a : file.mesh.attributes) mesh.set(skin.at_vertices(a));
+  return mesh;
+}
+
 struct CheckOptions {
   std::string shape;
   bool json = false;
 };
 
 void check(const CheckOptions& options) {
-  ShapeFile file = find_shape(options.shape);
-  MeshReport report = describe(file.mesh, std::move(file.findings));
+  ShapeFile file = read_surface(options.shape);
+  const std::string cells = cells_of(file.nodes.get());
+  MeshReport report = describe(described(file), std::move(file.findings));
   if (file.source && file.source->polygons.find("normal") && !file.mesh.find("normal"))
     report.attributes.emplace_back("normal (of the file, and kept with its form; the surface has its own)");
-  if (options.json) return print_json(to_json(report, options.shape, file.mesh.metres_per_unit));
+  if (options.json) {
+    Json json = to_json(report, options.shape, file.mesh.metres_per_unit);
+    if (!cells.empty()) json["inside"] = cells;
+    return print_json(json);
+  }
   std::puts(options.shape.c_str());
+  if (!cells.empty()) line("inside", cells + "; its skin:");
   print_report(report, file.mesh.metres_per_unit);
 }
 

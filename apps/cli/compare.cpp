@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "catalog/shapes.h"
 #include "command.h"
+#include "input_unit.h"
 #include "pelage/io.h"
 #include "text.h"
 
@@ -46,7 +46,7 @@ void print(const Comparison& c) {
 }
 
 void run_compare(const CompareOptions& options) {
-  const Comparison result = compare(find_shape(options.shape).mesh, find_shape(options.reference).mesh);
+  const Comparison result = compare(read_surface(options.shape).mesh, read_surface(options.reference).mesh);
   if (options.json) return print_json(to_json(result));
   print(result);
 }

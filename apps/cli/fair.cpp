@@ -132,7 +132,7 @@ void run_fair(const FairCommand& command) {
   }
   catch_interrupts();
   ProgressBar bar(command.quiet || command.json ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
-  const ShapeFile file = read_shape(command.shape, command.input_unit);
+  const ShapeFile file = read_surface(command.shape, command.input_unit);
   if (command.attribute.empty())
     finish(command, file, faired(command, file.mesh, bar.progress()), bar);
   else

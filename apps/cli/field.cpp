@@ -154,7 +154,7 @@ void run_field(const FieldCommand& o) {
   require_one_guide(o);
   catch_interrupts();
   ProgressBar bar(o.quiet || o.json ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
-  const ShapeFile file = read_shape(o.shape, o.input_unit);
+  const ShapeFile file = read_surface(o.shape, o.input_unit);
   const TriangleMesh& mesh = file.mesh;
   const UpAxis up = o.up_z ? UpAxis::z : file.up;
   const Connection c = make_connection(make_topology(mesh.points.size(), mesh.triangles), mesh.points);

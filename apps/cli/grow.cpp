@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "base/parallel.h"
+#include "base/suggest.h"
 #include "catalog/bind.h"
 #include "catalog/images.h"
 #include "command.h"
-#include "grid_outputs.h"
 #include "grow_options.h"
 #include "grow_report.h"
 #include "input_unit.h"
@@ -16,10 +16,17 @@
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
 #include "io/write_mesh.h"
-#include "look/dress.h"
+#include "look/carving.h"
+#include "look/grid_picture.h"
+#include "look/sheet_image.h"
+#include "node_outputs.h"
 #include "panels.h"
+#include "patch_outputs.h"
 #include "pelage/io.h"
 #include "progress_bar.h"
+#include "run/nested.h"
+#include "shape/split_corners.h"
+#include "soup_input.h"
 #include "space_time.h"
 #include "text.h"
 
@@ -90,6 +97,15 @@ void restore(Run& run, const std::string& path) {
   }
 }
 
+void begin_nested(Run& run, const Progress& progress, GrowReport& report) {
+  const int grids =
+      interruptible("before the growth began; nothing was written", [&] { return grow_nested(run, progress); });
+  if (grids == 0)
+    report.warning(
+        "--nested changes nothing: it takes an even grid with an even number of nodes along periodic axes and an odd "
+        "one along others, and six of every second node for the wavelength");
+}
+
 [[noreturn]] void interrupted(const Run& run, const std::string& checkpoint) {
   const std::string stage = run.program().stages.size() > 1 ? "stage " + run.stage_program().name + ", " : "";
   const std::string place = "interrupted at " + stage + std::to_string(run.summary().steps) + " steps, time " +
@@ -133,23 +149,36 @@ void grow_to_the_end(Run& run, const GrowOptions& options, SpaceTime* plot, cons
   if (interrupt_signal()) interrupted(run, options.checkpoint);
 }
 
-/// `grid`: the coat on that of the shape, if it is one.
-template <class Mesh>
-void write_outputs(const GrowOptions& options, const Mesh& coat, const Grid* grid, const SaveOptions& form,
+/// How the coat was written.
+struct Saving {
+  std::vector<std::string> files;   ///< more than one where an image lies beside it
+  std::string about;                ///< what a reader must know beside it
+  std::vector<std::string> losses;  ///< what it cannot hold
+};
+
+void write_outputs(const std::vector<std::string>& paths, const std::function<Saving(const std::string&)>& save_as,
                    const Progress& progress, GrowReport& report) {
-  for (const std::string& path : options.outputs) {
+  for (const std::string& path : paths) {
     progress("writing " + path, 0);
-    const bool as_grid = is_grid_output(path);
-    interruptible("before " + path + " was written", [&] {
-      if (as_grid)
-        save_grid(*grid, path);
-      else
-        save(coat, path, form);
-    });
-    report.file(path);
-    if (as_grid) continue;
-    for (const std::string& loss : losses(coat, extension_of(path))) report.warning(path + ": " + loss);
+    Saving saving;
+    interruptible("before " + path + " was written", [&] { saving = save_as(path); });
+    for (const std::string& file : saving.files) report.file(file, saving.about);
+    for (const std::string& loss : saving.losses) report.warning(path + ": " + loss);
   }
+}
+
+template <class Mesh>
+Saving save_mesh(const Mesh& coat, const std::string& path, const SaveOptions& form) {
+  save(coat, path, form);
+  return {{path}, "", losses(coat, extension_of(path))};
+}
+
+/// Where normals belong to corners of their own, the surface stays closed; elsewhere it does so without them.
+Saving save_body(TriangleMesh body, const std::string& path, const SaveOptions& form) {
+  const std::string extension = lower_extension(path);
+  if (extension != ".glb" && extension != ".obj")
+    std::erase_if(body.attributes, [](const Attribute& a) { return a.name == "normal"; });
+  return save_mesh(body, path, form);
 }
 
 /// Built-in shapes are of no other form.
@@ -196,14 +225,43 @@ GrowReport::Form form_of(const GrowOptions& options) {
 /// drawn.
 struct Grown {
   TriangleMesh coat;
+  std::optional<Image> image;        ///< instead of the coat, where nothing else is asked for
+  std::optional<TriangleMesh> body;  ///< of a volume what is shown of it
   std::shared_ptr<const TriangleMesh> shape;
   Paint paint;
+  std::shared_ptr<const NodeShape> nodes;  ///< of the run, which may be made of the file's surface
+  std::optional<PatchTexture> texture;     ///< of patches, where it is asked for
 };
+
+int texture_size(const GrowOptions& options) { return options.bake.value_or(default_texture); }
+
+/// Of patches: whether any output shows images of them; checks that these have room.
+bool wants_texture(const GrowOptions& options, const ShapeFile& file) {
+  const Atlas* atlas = as<Atlas>(file.nodes);
+  const bool wanted = options.bake || !options.patch_images.empty() ||
+                      std::ranges::any_of(options.outputs, [](const std::string& o) { return is_node_output(o); });
+  if (!atlas || !wanted) return false;
+  lay_out(*atlas, texture_size(options));
+  return true;
+}
+
+/// Of patches.
+Saving save_with_texture(const Grown& grown, const std::string& path, const SaveOptions& form) {
+  Saving saving;
+  saving.files = save_textured(grown.coat, path, form, *grown.texture);
+  if (!is_node_output(path)) saving.losses = losses(grown.coat, extension_of(path));
+  return saving;
+}
 
 void require_line(const ShapeFile& file) {
   if (const Grid* grid = as<Grid>(file.nodes); !grid || grid->dimension() != 1)
     throw Error(Fault::usage,
                 "--plot shows what a line does in the course of time; take builtin:line?n=60 for the shape");
+}
+
+void require_sheet(const ShapeFile& file) {
+  if (const Grid* grid = as<Grid>(file.nodes); !grid || grid->dimension() == 3)
+    throw Error(Fault::usage, "--height-map is for sheets of grids, a pixel for each node; a block has no height");
 }
 
 /// As high as it may be; nodes become blocks of pixels where there is room.
@@ -212,10 +270,21 @@ Image space_time_plot(const SpaceTime& plot, const Run& run, const Look& look, i
   return zoomed(plot.picture(run, look, std::max(1, size / across)), across, across);
 }
 
+/// Whether a coat on a sheet is asked for as nothing but pixels.
+bool only_images(const GrowOptions& options, const Look& look) {
+  return options.panels.empty() && !look.keep_shape &&
+         std::ranges::all_of(options.outputs, [](const auto& path) { return lower_extension(path) == ".png"; });
+}
+
 Grown grown_coat(const GrowOptions& options, const Plan& planned, const Look& look, ShapeFile& file,
-                 std::vector<Texture> images, const Progress& progress, GrowReport& report) {
-  Run run = interruptible("before the growth began; nothing was written",
-                          [&] { return Run(bind_plan(planned, file, std::move(images)), progress); });
+                 std::vector<Texture> images, Carving carving, const Progress& progress, GrowReport& report) {
+  auto own = interruptible("before the growth began; nothing was written", [&] {
+    return std::make_unique<Run>(bind_plan(planned, file, std::move(images)), progress);
+  });
+  Run& run = *own;
+  const bool textured = wants_texture(options, file);
+  if (!options.height_map.empty()) require_sheet(file);
+  if (options.nested) begin_nested(run, progress, report);
   restore(run, options.resume);
   report.warnings(run);
   report.pattern(run);
@@ -236,7 +305,62 @@ Grown grown_coat(const GrowOptions& options, const Plan& planned, const Look& lo
     report.file(options.plot);
   }
   if (look.keep_shape) report.coarseness(run);
-  return {dress(fields, look), run.program().shape, resolve_paint(look, fields.species)};
+  if (!options.height_map.empty()) {
+    const std::size_t shown = resolve_paint(look, fields.species).shown;
+    save_height_map(*as<Grid>(file.nodes), fields.coefficients[shown], options.height_map);
+    report.file(options.height_map);
+  }
+  Grown grown{{}, {}, {}, shape_of(run.program()), resolve_paint(look, fields.species), fields.nodes, {}};
+  own.reset();
+  if (only_images(options, look) && is_bare_sheet(fields)) {
+    grown.image = sheet_image(fields, look);
+    return grown;
+  }
+  grown.coat = dress(fields, look);
+  if (textured) grown.texture = patch_texture(fields, look, texture_size(options));
+  if (options.bake && textured) grown.coat = with_uv(std::move(grown.coat), *grown.texture);
+  if (!is_volume(fields.nodes.get())) return grown;
+  if (const std::string other = fit_level(carving, fields); !other.empty()) report.warning(other);
+  grown.body = dress_body(fields, look, carving);
+  return grown;
+}
+
+/// As a finished run calls its fields.
+std::vector<std::string> names_of_species(const Plan& planned) {
+  std::vector<std::string> names;
+  for (const PlannedStage& stage : planned.stages)
+    for (std::size_t i = 0; i < stage.model.species_count(); ++i)
+      names.push_back((&stage == &planned.stages.back() ? "" : stage.asked.name.value + ".") +
+                      stage.model.species_name(i));
+  return names;
+}
+
+/// What to cut away of a volume.
+Carving carving_of(const GrowOptions& options, const Plan& planned, UpAxis up) {
+  Carving carving;
+  for (const std::string& text : options.cuts) carving.cuts.emplace_back(text, up);
+  if (!options.isosurface) return carving;
+  carving.part = parse_level_part(*options.isosurface);
+  const std::vector<std::string> known = names_of_species(planned);
+  if (std::ranges::count(known, carving.part->species) == 0)
+    throw Error(Fault::usage, "--isosurface: " + unknown_name("species", carving.part->species, known));
+  return carving;
+}
+
+/// What a shape of that kind has not: before any work.
+void check_kind(const GrowOptions& options, const ShapeFile& file, const Carving& carving) {
+  for (const std::string& path : options.outputs)
+    if (is_node_output(path)) check_node_output(path, file.nodes.get());
+  if (!is_volume(file.nodes.get()) && (!options.cuts.empty() || options.isosurface))
+    throw Error(Fault::usage,
+                "--cut and --isosurface show the inside of volumes, and the shape is none; take for example "
+                "builtin:box?n=64x64x64 or a .vtu or .msh file");
+  if (!carving.cuts.empty() && !leaves_something(*file.nodes, file.mesh.points, carving.cuts))
+    throw Error(Fault::usage, "--cut leaves nothing of the shape, which pelage check describes");
+  if (!file.nodes && file.mesh.triangles.empty())
+    for (const std::string& path : options.outputs)
+      if (const std::string kind = lower_extension(path); kind == ".glb" || kind == ".stl")
+        throw Error(Fault::usage, path + ": a cloud of points has no triangles for a file of this kind; take .ply");
 }
 
 void grow(const GrowOptions& options) {
@@ -257,26 +381,42 @@ void grow(const GrowOptions& options) {
 
   progress("reading " + recipe.shape, 0);
   std::vector<Texture> images = read_images(recipe.textures);
-  ShapeFile file = read_shape(recipe.shape, options.input_unit);
+  const bool on_cells = planned.method->fits && planned.method->fits(Cells{});
+  ShapeFile file =
+      on_cells ? read_for_cells(recipe.shape, options.input_unit) : read_shape(recipe.shape, options.input_unit);
+  progress("filling", 0);
+  fill_solid(planned, file, images);
   report.shape(recipe.shape, file);
+  const UpAxis up = options.up.value_or(file.up);
+  Carving carving = carving_of(options, planned, up);
+  check_kind(options, file, carving);
   if (!recipe.look.keep_shape) file.source.reset();
 
-  const Grown grown = grown_coat(options, planned, recipe.look, file, std::move(images), progress, report);
-  const UpAxis up = options.up.value_or(file.up);
-  const SaveOptions form{object_name(file, recipe.shape), up};
-  if (recipe.look.keep_shape)
-    write_outputs(options, kept_shape(form_of_shape(file, *grown.shape), grown.coat, grown.paint), nullptr, form,
-                  progress, report);
-  else if (const Grid* nodes = as<Grid>(file.nodes)) {
-    const Grid grid = on_grid(*nodes, grown.coat);
-    write_outputs(options, surface_of(grid, grown.coat, grown.paint), &grid, form, progress, report);
-  } else
-    write_outputs(options, grown.coat, nullptr, form, progress, report);
+  const Grown grown =
+      grown_coat(options, planned, recipe.look, file, std::move(images), std::move(carving), progress, report);
+  SaveOptions form{object_name(file, recipe.shape), up};
+  if (grown.texture && options.bake) form.texture = grown.texture->image;
+  const auto save_as = [&](const std::string& path) -> Saving {
+    if (grown.image) {
+      write_png(*grown.image, path);
+      return {{path}, "", {}};
+    }
+    if (grown.texture && (options.bake || is_node_output(path))) return save_with_texture(grown, path, form);
+    if (is_node_output(path)) return {{path}, save_nodes(*grown.nodes, grown.coat, path), {}};
+    if (grown.body) return save_body(*grown.body, path, form);
+    if (!recipe.look.keep_shape || grown.shape->triangles.empty()) return save_mesh(grown.coat, path, form);
+    return save_mesh(kept_shape(form_of_shape(file, *grown.shape), grown.coat, grown.paint), path, form);
+  };
+  write_outputs(options.outputs, save_as, progress, report);
+  if (!options.patch_images.empty())
+    for (const std::string& path : save_patches(*grown.texture, options.patch_images)) report.file(path);
   const PictureOptions picture = picture_options(options, *planned.quality, up);
   write_picture(options.picture, progress, report, [&](const Progress& p) {
-    if (const Grid* grid = as<Grid>(file.nodes); grid && is_flat(*grid))
+    if (grown.image)
+      return picture_of_nodes(*as<Grid>(file.nodes), *grown.image, options.preview, options.picture_size);
+    if (const Grid* grid = as<Grid>(file.nodes); grid && grid->dimension() < 3 && is_flat(*grid))
       return picture_of_nodes(*grid, grown.coat, options.preview, options.picture_size);
-    return render(grown.coat, picture, p);
+    return render(grown.body ? split_corners(*grown.body) : grown.coat, picture, p);
   });
   write_picture(options.panels, progress, report,
                 [&](const Progress& p) { return four_panels(recipe, *grown.shape, grown.coat, picture, p); });

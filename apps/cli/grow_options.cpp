@@ -10,14 +10,15 @@
 #include "catalog/quality.h"
 #include "catalog/shapes.h"
 #include "catalog/size.h"
-#include "grid_outputs.h"
 #include "input_unit.h"
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
+#include "io/grid_file.h"
 #include "io/png_writer.h"
 #include "io/read_shape.h"
 #include "io/write_mesh.h"
 #include "look/ramp.h"
+#include "node_outputs.h"
 #include "outputs.h"
 #include "panels.h"
 #include "pelage/analyse.h"
@@ -38,6 +39,7 @@ namespace {
 constexpr std::int64_t most_steps = 1'000'000'000'000;
 constexpr int largest_picture = 32768;
 constexpr int most_tiles = 16;
+constexpr int smallest_texture = 16, largest_texture = 16384;
 
 std::string choices(const std::vector<std::string>& names) { return ": " + join_names(names); }
 
@@ -114,6 +116,13 @@ void add_time_options(CLI::App& app, GrowOptions& o) {
       ->type_name("NAME")
       ->group(group);
   app.add_option("--method", o.method, "Finite elements: " + method_choices())->type_name("NAME")->group(group);
+  app.add_flag("--solid", o.solid, "Fill the shape, which is closed, with tetrahedra, and grow in its volume")
+      ->excludes("--method")
+      ->group(group);
+  app.add_option("--cells", o.cells, "Grow on so many points scattered over the shape (method cells)")
+      ->type_name("N")
+      ->check(whole_number(1, std::numeric_limits<std::int64_t>::max()))
+      ->group(group);
   app.add_option("--stepper", o.stepper,
                  "Time stepper (default: what suits the method and the model)" + choices(stepper_names()))
       ->type_name("NAME")
@@ -135,6 +144,9 @@ void add_time_options(CLI::App& app, GrowOptions& o) {
                  "the model's suggestion)")
       ->type_name("X")
       ->check(number_at_least_zero())
+      ->group(group);
+  app.add_flag("--nested", o.nested,
+               "Begin on coarser grids of every second node, for even grids: patterns without jumps finish sooner")
       ->group(group);
   app.add_option("--threads", o.threads, "Threads to use (default: all cores); the result does not depend on it")
       ->type_name("N")
@@ -192,7 +204,8 @@ void add_output_options(CLI::App& app, GrowOptions& o) {
   const std::string group = "Output";
   app.add_option("-o,--output", o.outputs,
                  "Files for the coated mesh; the extension is the format" + choices(mesh_extensions()) +
-                     "; of grids also" + choices(grid_output_extensions()))
+                     "; of grids and volumes also" + choices(node_output_extensions()) +
+                     "; of patches also .png, all of them in one image")
       ->type_name("FILE[,FILE]")
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -201,8 +214,16 @@ void add_output_options(CLI::App& app, GrowOptions& o) {
          "--no-fields", o.no_fields,
          "Leave the concentrations of the species out of these files; colours and the shape's own attributes stay")
       ->group(group);
-  app.add_option("--picture", o.picture,
-                 "File for a picture: .png; of a flat grid its nodes as pixels, of a block its middle planes")
+  app.add_option("--bake", o.bake,
+                 "Of patches: colours as an image of so many texels along a side instead of at vertices, in GLB or "
+                 "beside OBJ; also the size of .png and --patch-images (default: 2048)")
+      ->type_name("N")
+      ->check(whole_number(smallest_texture, largest_texture))
+      ->group(group);
+  app.add_option("--patch-images", o.patch_images, "Of patches: folder for an image of each, PATCH.png")
+      ->type_name("FOLDER")
+      ->group(group);
+  app.add_option("--picture", o.picture, "File for a picture: .png; of a flat grid its nodes as pixels")
       ->type_name("FILE")
       ->group(group);
   app.add_option_function<std::string>(
@@ -217,8 +238,26 @@ void add_output_options(CLI::App& app, GrowOptions& o) {
          "Show a flat grid so many times across and down in its picture, as a floor of tiles: 3x3")
       ->type_name("NxM")
       ->group(group);
+  app.add_option(
+         "--cut", o.cuts,
+         "Of a volume: cut away where that holds, \"x<0\" or \"x>0 and y+z>0.5\", in pictures and meshes; \"x=0\": the "
+         "side that pictures look from. May be given several times")
+      ->type_name("CONDITION")
+      ->allow_extra_args(false)
+      ->group(group);
+  app.add_option(
+         "--isosurface", o.isosurface,
+         "Of a volume: show the solid where a species is above a level, or with SPECIES<LEVEL below it (default: "
+         "halfway between its lowest and highest value); closed, for printing")
+      ->type_name("SPECIES[=LEVEL]")
+      ->group(group);
   app.add_option("--plot", o.plot,
                  "Of a line: file for a picture of the pattern in the course of time, downwards: .png")
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option("--height-map", o.height_map,
+                 "Of a sheet: file for the shown species as a relief, .png of 16-bit grey, its lowest value black and "
+                 "its highest white")
       ->type_name("FILE")
       ->group(group);
   app.add_option("--panels", o.panels,
@@ -354,6 +393,8 @@ void apply(const GrowOptions& o, std::vector<Stage>& stages) {
   for (const std::string& text : o.maps) apply_map(text, stages);
   for (Stage& stage : stages) {
     if (o.method) stage.method = {*o.method, {"--method"}};
+    if (o.solid) stage.method = {std::string(tets_method.name), {"--solid"}};
+    if (o.cells) stage.cells = Given<std::int64_t>{*o.cells, {"--cells"}};
     override(o.stepper, stage.stepper);
     override(o.step, stage.step);
     override(o.until, stage.until);
@@ -445,18 +486,23 @@ void check_inputs(const GrowOptions& options, const Recipe& recipe) {
   if ((names_grid(recipe.shape) || names_atlas(recipe.shape)) &&
       (look.flat || look.keep_shape || look.detail.value_or(0) > 0))
     throw Error(Fault::usage, "a grid is coloured at its own nodes: leave --flat, --keep-shape and --detail out");
+  if (options.nested && !names_grid(recipe.shape))
+    throw Error(Fault::usage, "--nested begins on coarser grids, and the shape is no grid; leave it out");
+  if (options.nested && !options.resume.empty())
+    throw Error(Fault::usage, "--nested makes the start of a run, and one that is resumed has begun; leave it out");
   if (!options.resume.empty()) require_file(options.resume);
 }
 
 void require_outputs(const GrowOptions& options) {
-  if (options.outputs.empty() && options.picture.empty() && options.panels.empty() && options.plot.empty())
+  if (options.outputs.empty() && options.picture.empty() && options.panels.empty() && options.plot.empty() &&
+      options.height_map.empty() && options.patch_images.empty())
     throw Error(Fault::usage, "nothing to write; give -o FILE, --picture FILE or both");
 }
 
 void check_outputs(const GrowOptions& options, const std::string& shape) {
   for (const std::string& output : options.outputs) {
-    if (is_grid_output(output))
-      check_grid_output(output, shape);
+    if (is_node_output(output))
+      check_folder(output);
     else
       check_mesh_path(output);
     refuse_input_as_output(output, shape);
@@ -466,6 +512,12 @@ void check_outputs(const GrowOptions& options, const std::string& shape) {
     check_picture_size(options.picture_size, options.picture_size, options.picture);
   }
   if (!options.plot.empty()) check_picture_path(options.plot);
+  if ((options.bake || !options.patch_images.empty()) && !names_atlas(shape))
+    throw Error(Fault::usage, "--bake and --patch-images are for patches, which say where an image lies on them");
+  if (!options.height_map.empty()) {
+    check_picture_path(options.height_map);
+    if (!names_grid(shape)) throw Error(Fault::usage, "--height-map is for sheets of grids, a pixel for each node");
+  }
   if (options.preview != std::array{1, 1} && (!names_grid(shape) || options.picture.empty()))
     throw Error(Fault::usage,
                 "--preview shows a tile several times in its --picture; give that, and a grid for the shape");

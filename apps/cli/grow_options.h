@@ -24,13 +24,17 @@ struct GrowOptions {
   std::optional<std::int64_t> steps, every;
   std::optional<std::uint64_t> seed;
   std::optional<int> detail, threads;
+  std::optional<std::int64_t> cells;
   std::string fair;  ///< method of fairing, or empty
   std::optional<std::string> motion;
-  bool profile = false;
+  bool profile = false, solid = false, nested = false;
   bool interpolate = false, invert = false, keep_shape = false, flat = false, no_fields = false;
 
   std::vector<std::string> outputs;
-  std::string picture, panels, plot, checkpoint, resume;
+  std::string picture, panels, plot, height_map, patch_images, checkpoint, resume;
+  std::optional<int> bake;        ///< texels along a side of the image of patches
+  std::vector<std::string> cuts;  ///< "x < 0"
+  std::optional<std::string> isosurface;
   std::array<int, 2> preview{1, 1};  ///< tiles across and down
   int picture_size = 1024;
   std::optional<UpAxis> up;  ///< given, or else what the file says

@@ -102,6 +102,11 @@ std::string size_in_words(const StageProgram& p, const TriangleMesh& shape) {
 
 }  // namespace
 
+std::shared_ptr<const TriangleMesh> shape_of(const Program& program) {
+  const Cells* cells = as<Cells>(program.nodes);
+  return cells ? cells->on : program.shape;
+}
+
 void GrowReport::line(const std::string& label, const std::string& text) {
   if (form_ != Form::lines) return;
   bar_.clear();
@@ -178,7 +183,8 @@ void GrowReport::nodes(const Run& run, double finest, const std::string& per) {
 
 void GrowReport::coarseness(const Run& run) {
   constexpr double fewest = 4;  // edges per wavelength below which spots lose their form
-  const TriangleMesh& shape = *run.program().shape;
+  const TriangleMesh& shape = *shape_of(run.program());
+  if (shape.triangles.empty()) return;
   const double edge = prevailing_edge(shape.triangles, shape.points);
   for (const StageProgram& p : run.program().stages) {
     if (p.size >= fewest * edge) continue;
@@ -230,11 +236,12 @@ void GrowReport::grown(const Run& run, std::size_t stage, const RunSummary& s) {
                                       {"maximum", json_number(s.maximum)}};
 }
 
-void GrowReport::file(const std::string& path) {
+void GrowReport::file(const std::string& path, const std::string& about) {
   std::error_code ignored;
   const auto bytes = std::filesystem::file_size(path, ignored);
-  line("wrote", path + " (" + file_size(bytes) + ")");
+  line("wrote", path + " (" + file_size(bytes) + ")" + (about.empty() ? "" : ": " + about));
   json_["files"].push_back({{"path", path}, {"bytes", bytes}});
+  if (!about.empty()) json_["files"].back()["form"] = about;
 }
 
 void GrowReport::profile(Profile& profile) {

@@ -11,6 +11,9 @@
 
 namespace pelage {
 
+/// What the pattern of a program grows on: the given shape, also where its nodes are cells on it.
+std::shared_ptr<const TriangleMesh> shape_of(const Program& program);
+
 class GrowReport {
  public:
   enum class Form { lines, json, nothing };
@@ -27,7 +30,8 @@ class GrowReport {
   void estimate(const Run& run, double seconds);
   void surface(const MovingSurface& surface);
   void growth(const Run& run, double seconds);
-  void file(const std::string& path);
+  /// `about`: what one must know to read it, or empty.
+  void file(const std::string& path, const std::string& about = {});
   void profile(Profile& profile);
   void end(double seconds);
 

@@ -20,6 +20,8 @@ struct Cells {
   std::vector<std::array<double, 2>> place;  ///< at (1-v-w) a + v b + w c of that triangle; empty on clouds
   double radius = 0;  ///< within which points repel each other: 2 sqrt(area / points) [world units]
 
+  double stretch = 1;  ///< how many times as long as wide cells may become, for diffusion that has directions
+
   std::size_t nodes() const { return points.size(); }
 };
 

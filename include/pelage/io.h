@@ -21,7 +21,9 @@
 namespace pelage {
 
 struct ShapeFile {
-  TriangleMesh mesh;              ///< checked, repaired, polygons cut into triangles
+  /// Checked, repaired, polygons cut into triangles; without any where the file has points alone, at least 32 of them:
+  /// a cloud, with its own "normal" if it has some.
+  TriangleMesh mesh;
   std::vector<Finding> findings;  ///< what was found in the file and what was done about it
   UpAxis up = UpAxis::y;          ///< z where the file says that it comes from Blender
   /// Of the only object, where the file names it; else empty.
@@ -53,6 +55,8 @@ std::vector<std::string> readable_extensions();
 struct SaveOptions {
   std::string name = "mesh";  ///< of the object, in formats that name it
   UpAxis up = UpAxis::y;      ///< the mesh's axis that points up: GLB prescribes y, the others take the mesh as it is
+  /// What the mesh shows instead of "color", laid on it by its "uv": inside GLB; the others hold none.
+  std::shared_ptr<const Image> texture = nullptr;
 };
 
 /// Writes a mesh as .glb, .ply, .obj, .vtp, .stl or .off, with all its attributes that the format can hold. Every

@@ -87,10 +87,13 @@ struct Stage {
   std::optional<Directions> directions;  ///< default: the shape's attribute "direction", or its smoothest field
   std::optional<Given<Length>> points;   ///< spacing of random points; the formula `points` is the distance to the
                                          ///< nearest in spacings
+  std::optional<Given<double>> jitter;   ///< 0 to 1: on flat grids these points are a grid of diamonds, each moved by
+                                         ///< up to half of so many spacings along both axes
   std::optional<Given<Length>> size;     ///< wanted wavelength of the pattern; default: 4 % of the diagonal
   std::optional<Given<Length>> unit;     ///< instead of it: the length of the model's own length unit
   std::optional<Given<std::string>> size_map;  ///< formula of the place: factor on the size
   Given<std::string> method{"remeshed", {}};   ///< discretisation
+  std::optional<Given<std::int64_t>> cells;    ///< how many the method "cells" scatters; default: as the size needs
   Given<std::string> stepper{"", {}};          ///< empty: the first that suits the method and the model
   std::optional<double> step;         ///< fixed step [model time]; default: adaptive, or the stepper's safe step
   std::optional<double> until;        ///< stop at this model time; default: the model's suggestion

@@ -17,8 +17,11 @@
 #include "run/directions.h"
 #include "run/material.h"
 #include "run/random_points.h"
+#include "shape/cells.h"
 #include "shape/grid.h"
 #include "shape/refine.h"
+#include "shape/tet_mesh.h"
+#include "solid/fill.h"
 
 namespace pelage {
 
@@ -89,16 +92,22 @@ FieldWish bind_directions(const PlannedStage& planned, const MeshPlaces& places,
   return wish;
 }
 
+/// Where conditions can hold; none on other shapes.
+std::vector<std::string> sides_of(const std::shared_ptr<const NodeShape>& nodes) {
+  if (const Grid* grid = as<Grid>(nodes)) return axis_ends(*grid);
+  return as<TetMesh>(nodes) ? std::vector<std::string>{"skin"} : std::vector<std::string>{};
+}
+
 void require_sides(const std::vector<BorderCondition>& borders, const std::shared_ptr<const NodeShape>& nodes) {
-  const Grid* grid = as<Grid>(nodes);
+  if (borders.empty()) return;
+  const std::vector<std::string> sides = sides_of(nodes);
   for (const BorderCondition& c : borders) {
-    if (!grid) throw Error(Fault::usage, "conditions at borders are for grids; leave [boundary] out", c.where);
-    const std::vector<std::string> sides = axis_ends(*grid);
-    if (std::ranges::count(sides, c.side) == 0)
-      throw Error(
-          Fault::usage,
-          sides.empty() ? "the grid has no sides: all its axes are periodic" : unknown_name("side", c.side, sides),
-          c.where);
+    if (sides.empty())
+      throw Error(Fault::usage,
+                  as<Grid>(nodes) ? "the grid has no sides: all its axes are periodic"
+                                  : "conditions at borders are for grids and volumes; leave [boundary] out",
+                  c.where);
+    if (std::ranges::count(sides, c.side) == 0) throw Error(Fault::usage, unknown_name("side", c.side, sides), c.where);
   }
 }
 
@@ -119,6 +128,7 @@ StageProgram bind_stage(const PlannedStage& planned, const Program& program, con
   s.suggested_step = suggested.step.value_or(1);
   s.excluded = asked.inside.value == "excluded";
   if (asked.points) s.points = world_length(*asked.points, scale);
+  if (asked.jitter) s.jitter = asked.jitter->value;
   s.until = planned.until;
   s.steps = asked.steps;
   s.stationary = asked.stationary.value_or(suggested.tolerance.value_or(0));
@@ -293,18 +303,10 @@ Program bind_plan(const Plan& plan, std::shared_ptr<const NodeShape> nodes, Tria
   return p;
 }
 
-Program bind_plan(const Plan& plan, ShapeFile& shape, std::vector<Texture> images) {
-  return shape.nodes ? bind_plan(plan, shape.nodes, std::move(shape.mesh), std::move(images))
-                     : bind_plan(plan, std::move(shape.mesh), std::move(images));
-}
+namespace {
 
-Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> images) {
-  require_no_lattice(plan);
-  const ShapeScale scale = scale_of(shape);
-  require_fitting(plan, shape, scale);
-  Program p = begin_program(plan, std::move(images));
-  p.method = fitting_method(plan, shape, p.warnings);
-  p.shape = std::make_shared<const TriangleMesh>(std::move(shape));
+/// Stages on the surface of `p.shape`, and the edges that they need.
+void bind_surface(const Plan& plan, const ShapeScale& scale, Program& p) {
   p.edge = std::numeric_limits<double>::infinity();
   if (sizes_differ(plan, *p.method)) p.edges.assign(p.shape->points.size(), p.edge);
   for (const PlannedStage& s : plan.stages) {
@@ -314,8 +316,102 @@ Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> ima
   }
   // The shape itself needs some.
   constexpr double longest_share = 0.02;
-  if (p.method->own_mesh) p.edge = std::min(p.edge, longest_share * scale.diagonal);
+  if (p.method->own_mesh || p.method->fits) p.edge = std::min(p.edge, longest_share * scale.diagonal);
   for (double& edge : p.edges) edge = std::min(edge, longest_share * scale.diagonal);
+}
+
+bool fills(const Method& method) { return method.fits && method.fits(TetMesh{}); }
+
+/// What the patterns of all stages need in the volume that a shape encloses.
+double edge_inside(const Plan& plan, const TriangleMesh& shape, std::vector<Texture> images) {
+  const ShapeScale scale = scale_of(shape);
+  require_fitting(plan, shape, scale);
+  Program p = begin_program(plan, std::move(images));
+  p.method = plan.method;
+  p.nodes = std::make_shared<const NodeShape>(TetMesh{});
+  p.shape = std::make_shared<const TriangleMesh>(shape);
+  bind_surface(plan, scale, p);
+  return p.edge;
+}
+
+/// More would need more memory than common machines have: about 0.3 kB each with two species.
+constexpr std::size_t max_tets = 16'000'000;
+
+Finding lost_volume(double share, double edge) {
+  return {"lost-volume",
+          number(100 * share, 2) + " % of the volume is lost, where the shape is thinner than " + number(edge, 3) +
+              ", the edge of the tetrahedra; a finer quality or a smaller pattern keeps more",
+          0, 0, false};
+}
+
+/// Clouds of points, which have no triangles, and meshes for which the recipe asks it.
+bool grows_on_cells(const Plan& plan, const TriangleMesh& shape) {
+  return shape.triangles.empty() || (plan.method->fits && plan.method->fits(Cells{}));
+}
+
+std::size_t number_of_cells(const Plan& plan, const CellMaker& maker, std::shared_ptr<const TriangleMesh> shape,
+                            std::vector<Texture> images) {
+  if (plan.cells) return static_cast<std::size_t>(plan.cells->value);
+  const ShapeScale scale = scale_of(maker.box(), shape->metres_per_unit);
+  require_fitting(plan, *shape, scale);
+  Program p = begin_program(plan, std::move(images));
+  p.method = node_method_of(plan, Cells{});
+  p.shape = std::move(shape);
+  bind_surface(plan, scale, p);
+  return maker.for_edge(p.edge);
+}
+
+Program bind_cells(const Plan& plan, TriangleMesh mesh, std::vector<Texture> images) {
+  require_at_rest(plan);
+  const auto shape = std::make_shared<const TriangleMesh>(std::move(mesh));
+  const CellMaker maker(shape);
+  Cells cells = maker.make(number_of_cells(plan, maker, shape, images));
+  constexpr double stretch = 2;  // as the ratio of rates up to which other methods are good
+  if (std::ranges::any_of(plan.stages, [](const PlannedStage& s) { return s.model.anisotropic(); }))
+    cells.stretch = stretch;
+  TriangleMesh points = mesh_of(cells);
+  Program p =
+      bind_plan(plan, std::make_shared<const NodeShape>(std::move(cells)), std::move(points), std::move(images));
+  if (maker.outliers() > 0)
+    p.warnings.push_back(std::to_string(maker.outliers()) + " of the " + std::to_string(shape->points.size()) +
+                         " points are far from all others: nothing grows on them");
+  return p;
+}
+
+}  // namespace
+
+void fill_solid(const Plan& plan, ShapeFile& shape, const std::vector<Texture>& images) {
+  if (shape.nodes || !fills(*plan.method)) return;
+  require_at_rest(plan);
+  const double edge = edge_inside(plan, shape.mesh, images);
+  Filling filling = fill(shape.mesh, edge, max_tets);
+  constexpr double noticeable = 0.03;
+  if (filling.lost > noticeable) shape.findings.push_back(lost_volume(filling.lost, edge));
+  shape.mesh = mesh_of(filling.volume);
+  shape.source.reset();
+  shape.nodes = std::make_shared<const NodeShape>(std::move(filling.volume));
+}
+
+Program bind_plan(const Plan& plan, ShapeFile& shape, std::vector<Texture> images) {
+  fill_solid(plan, shape, images);
+  return shape.nodes ? bind_plan(plan, shape.nodes, std::move(shape.mesh), std::move(images))
+                     : bind_plan(plan, std::move(shape.mesh), std::move(images));
+}
+
+Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> images) {
+  require_no_lattice(plan);
+  if (fills(*plan.method)) {
+    ShapeFile file;
+    file.mesh = std::move(shape);
+    return bind_plan(plan, file, std::move(images));
+  }
+  if (grows_on_cells(plan, shape)) return bind_cells(plan, std::move(shape), std::move(images));
+  const ShapeScale scale = scale_of(shape);
+  require_fitting(plan, shape, scale);
+  Program p = begin_program(plan, std::move(images));
+  p.method = fitting_method(plan, shape, p.warnings);
+  p.shape = std::make_shared<const TriangleMesh>(std::move(shape));
+  bind_surface(plan, scale, p);
   // They have to do when the surface is at its largest.
   const double growth = std::exp(std::max(0.0, plan.motion.growth * plan.until));
   p.edge /= growth;

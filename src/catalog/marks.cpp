@@ -19,7 +19,7 @@ constexpr std::size_t most_triangles = 2'000'000;
 }  // namespace
 
 std::vector<double> vertex_values(const PlaceFormula& formula, const MeshPlaces& m) {
-  const std::vector<Point> normals = vertex_normals(m.shape.triangles, m.shape.points);
+  const std::vector<Point> normals = vertex_normals(m.shape);
   VertexAttributes attributes = scalar_attributes(m.shape);
   attributes.merge(texture_values(textures_read(formula.symbols(), m.textures), m.shape));
   Places places{.positions = m.shape.points, .normals = normals};

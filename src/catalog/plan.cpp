@@ -70,6 +70,19 @@ std::string what_borders_need(const StepperKind& stepper, const std::vector<Stag
   return values && !stepper.gives_values ? "give values at borders" : "";
 }
 
+/// A number of cells asks for the method.
+void take_cells(const std::optional<Given<std::int64_t>>& cells, Plan& p) {
+  if (!cells) return;
+  p.cells = cells;
+  if (!p.method_asked) p.method = &cell_method;
+  p.method_asked = true;
+  if (!p.method->fits || !p.method->fits(Cells{}))
+    throw Error(Fault::usage,
+                "the method \"" + std::string(p.method->name) + "\" has no cells; take \"" +
+                    std::string(cell_method.name) + "\", or leave their number out",
+                cells->where);
+}
+
 /// What keeps a stepper from growing a model with a method; empty if nothing does.
 std::string what_stepper_cannot(const StepperKind& stepper, const Method& method, const Model& model,
                                 const std::vector<Stage::Border>& borders) {
@@ -92,7 +105,8 @@ const StepperKind& require_able(const StepperKind& stepper, const Method& method
   const std::string what = what_stepper_cannot(stepper, method, model, borders);
   const std::string other = method.symmetric
                                 ? "take \"" + std::string(sbdf2.name) + "\""
-                                : "take another stepper, or the method \"" + std::string(grid_method.name) + "\"";
+                                : "take another stepper, or the method \"" +
+                                      std::string((method.fits(Cells{}) ? cell_method : grid_method).name) + "\"";
   if (!what.empty())
     throw Error(Fault::usage, "the stepper \"" + std::string(stepper.name) + "\" cannot " + what + "; " + other, where);
   return stepper;
@@ -271,6 +285,7 @@ Plan plan(const Recipe& recipe, const Components& components) {
   p.method = &component(method, "method", components.methods);
   p.method_asked = !method.where.file.empty();
   if (!p.method_asked && asks_for_lattice(recipe.stages, components)) p.method = &grid_method;
+  take_cells(recipe.stages[0].cells, p);
   p.quality = &quality_called(recipe.quality);
   p.textures = recipe.textures;
   for (const Stage& stage : recipe.stages) {

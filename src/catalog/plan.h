@@ -30,6 +30,7 @@ struct PlannedStage {
 /// Immutable; nothing in it depends on a shape.
 struct Plan {
   const Method* method = nullptr;
+  std::optional<Given<std::int64_t>> cells;  ///< how many
   bool method_asked = false;  ///< by the recipe: then it is not exchanged for one that suits the shape better
   const Quality* quality = nullptr;
   bool interpolate = false;

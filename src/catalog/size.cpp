@@ -47,21 +47,20 @@ struct NodeDistance {
 
 }  // namespace
 
-namespace {
-
 ShapeScale scale_of(const Box& box, const std::optional<double>& metres_per_unit) {
   ShapeScale scale{box.diagonal(), 0, box.middle(), metres_per_unit, {}};
   for (std::size_t k = 0; k < 3; ++k) scale.longest = std::max(scale.longest, box.high[k] - box.low[k]);
   return scale;
 }
 
-}  // namespace
-
 ShapeScale scale_of(const TriangleMesh& shape) { return scale_of(box_of(shape.points), shape.metres_per_unit); }
 
 ShapeScale scale_of(const NodeShape& nodes, const TriangleMesh& mesh) {
   const Grid* grid = std::get_if<Grid>(&nodes);
-  ShapeScale scale = scale_of(grid ? box_of_cells(*grid) : box_of(mesh.points), mesh.metres_per_unit);
+  const Cells* cells = std::get_if<Cells>(&nodes);
+  const bool on_polygons = cells && !cells->on->triangles.empty();
+  ShapeScale scale = scale_of(grid ? box_of_cells(*grid) : box_of(on_polygons ? cells->on->points : mesh.points),
+                              mesh.metres_per_unit);
   scale.cell = std::visit(NodeDistance{mesh}, nodes);
   return scale;
 }

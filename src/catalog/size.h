@@ -1,6 +1,7 @@
 #pragma once
 // How large the pattern of a stage becomes in the world.
 
+#include "base/box.h"
 #include "pelage/io.h"
 #include "pelage/recipe.h"
 
@@ -18,6 +19,7 @@ struct ShapeScale {
   std::optional<double> cell;  ///< mean distance of neighbours among given nodes [world units]; nothing on surfaces
 };
 
+ShapeScale scale_of(const Box& box, const std::optional<double>& metres_per_unit);
 ShapeScale scale_of(const TriangleMesh& shape);
 /// `mesh` is that of the nodes.
 ShapeScale scale_of(const NodeShape& nodes, const TriangleMesh& mesh);

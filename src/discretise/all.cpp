@@ -3,7 +3,8 @@
 namespace pelage {
 
 std::span<const Method* const> methods() {
-  static constexpr const Method* all[] = {&remeshed_method, &loop_method, &linear_method, &grid_method, &mask_method};
+  static constexpr const Method* all[] = {&remeshed_method, &loop_method, &linear_method, &grid_method,
+                                          &tets_method,     &mask_method, &cell_method,   &turk_method};
   return all;
 }
 

@@ -1,10 +1,12 @@
 #include "discretise/anisotropy.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/parallel.h"
+#include "pelage/error.h"
 #include "shape/vectors.h"
 
 namespace pelage {
@@ -52,6 +54,18 @@ Tensor surface_tensor(const Tensor& mean, const Point& normal, double theta, dou
   const Tensor other = line_tensor(cross(normal, d));
   for (std::size_t k = 0; k < 6; ++k) t[k] = a1 * a1 * t[k] + a2 * a2 * other[k];
   return t;
+}
+
+Tensor volume_tensor(const Tensor& mean, double a1, double a2) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(matrix_of(mean));
+  const Eigen::Vector3d d = axes.eigenvectors().col(2);
+  const Eigen::Matrix3d t = a2 * a2 * Eigen::Matrix3d::Identity() + (a1 * a1 - a2 * a2) * d * d.transpose();
+  return {t(0, 0), t(0, 1), t(0, 2), t(1, 1), t(1, 2), t(2, 2)};
+}
+
+void require_unturned(const Kinetics::TensorField& rates) {
+  if (std::ranges::any_of(rates.theta, [](double theta) { return theta != 0; }))
+    throw Error(Fault::usage, "directions in a volume cannot be turned by an angle; let theta be 0 and give the lines");
 }
 
 std::vector<Tensor> quadrature_tensors(const Discretisation& d, const std::vector<Point>& control,

@@ -17,6 +17,11 @@ Tensor line_tensor(const Point& d);
 /// theta counter-clockwise seen from outside, and e is across it.
 Tensor surface_tensor(const Tensor& mean_of_lines, const Point& normal, double theta, double a1, double a2);
 
+/// T = a1^2 d d' + a2^2 (1 - d d') in a volume, with the main direction d of a mean of lines.
+Tensor volume_tensor(const Tensor& mean_of_lines, double a1, double a2);
+/// There the rates have no other angle than 0: Error(Fault::usage).
+void require_unturned(const Kinetics::TensorField& rates);
+
 /// T = a1^2 d d' + a2^2 n n' at the quadrature points, with d at the angle theta from the field, counter-clockwise seen
 /// from outside. `lines`: at the vertices of the discretisation; `rates`: at its quadrature points.
 std::vector<Tensor> quadrature_tensors(const Discretisation& discretisation, const std::vector<Point>& control,

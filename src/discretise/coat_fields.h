@@ -16,7 +16,8 @@ namespace pelage {
 /// Of one moment of a run; what does not change is shared with it.
 struct CoatFields {
   std::shared_ptr<const TriangleMesh> shape;   ///< the mesh that the user gave, repaired
-  std::shared_ptr<const NodeShape> nodes;      ///< of which `shape` is the mesh, and there is no hierarchy; else null
+  std::shared_ptr<const NodeShape> nodes;      ///< of which `shape` is the mesh, and there is no hierarchy, and for
+                                               ///< grids no points and no control points; else null
   std::vector<Point> points;                   ///< where its vertices are now
   std::vector<Texture> textures;               ///< that layers may read
   std::shared_ptr<const Hierarchy> hierarchy;  ///< of the shape; the fields live on its finest level, or on a

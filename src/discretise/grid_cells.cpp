@@ -60,6 +60,7 @@ GridCells grid_cells(const Grid& grid) {
 GridCells grid_cells(const Atlas& atlas) {
   GridCells cells;
   cells.nodes = atlas.nodes;
+  cells.one_sided = atlas.one_sided;
   cells.first = {0};
   for (const Atlas::Patch& patch : atlas.patches) {
     const GridCells own = grid_cells(patch.grid);

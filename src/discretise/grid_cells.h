@@ -32,6 +32,7 @@ struct GridCells {
   /// empty: none is.
   std::vector<std::uint8_t> behind;
   std::array<Point, 3> period{};
+  bool one_sided = false;  ///< normals of neighbours may be opposite: there is no outside
 
   std::size_t count() const { return first.size() - 1; }
   int corners() const { return 1 << dimension; }

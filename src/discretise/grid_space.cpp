@@ -1,6 +1,5 @@
 #include "discretise/grid_space.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -339,9 +338,14 @@ std::vector<Point> GridSpace::positions(SampleRule rule) const {
   return result;
 }
 
-/// Sums over the quadrature points around every node, weighted with volumes and the node's function.
+double GridSpace::side(const Point& normal, const CellPoint& p) const {
+  return cells().one_sided && vector(normal).dot(p.normal) < 0 ? -1 : 1;
+}
+
+/// Sums over the quadrature points around every node, weighted with volumes and the node's function; of what has the
+/// sign of the cell's normal, seen from the side of the node's `normal`, if there are any.
 template <class Value, class At>
-std::vector<Value> GridSpace::around_nodes(const At& at_point) const {
+std::vector<Value> GridSpace::around_nodes(const std::vector<Point>& normal, const At& at_point) const {
   const std::size_t n = points_per_cell();
   std::vector<Value> sum(grid_.nodes(), Value{});
   CellPoints scratch;
@@ -349,12 +353,27 @@ std::vector<Value> GridSpace::around_nodes(const At& at_point) const {
     const CellPoints& points = points_of(e, scratch);
     for (std::size_t q = 0; q < n; ++q) {
       const Value value = at_point(e * n + q, points[q]);
-      for (std::size_t c = 0; c < n; ++c)
+      for (std::size_t c = 0; c < n; ++c) {
+        const std::size_t node = at(cells().corner[e * n + c]);
+        const double sign = normal.empty() ? 1 : side(normal[node], points[q]);
         for (std::size_t k = 0; k < value.size(); ++k)
-          sum[at(cells().corner[e * n + c])][k] += points[q].weight * rule_.value[q][c] * value[k];
+          sum[node][k] += sign * points[q].weight * rule_.value[q][c] * value[k];
+      }
     }
   }
   return sum;
+}
+
+/// Of one-sided surfaces a normal at every node, that of the last cell there, by which to tell its sides.
+std::vector<Point> GridSpace::sides() const {
+  std::vector<Point> normal;
+  if (!cells().one_sided) return normal;
+  normal.resize(grid_.nodes());
+  CellPoints scratch;
+  for (std::size_t e = 0; e < cells().count(); ++e)
+    for (std::size_t c = 0; c < points_per_cell(); ++c)
+      normal[at(cells().corner[e * points_per_cell() + c])] = point(points_of(e, scratch)[0].normal);
+  return normal;
 }
 
 std::vector<Point> GridSpace::normals(SampleRule rule) const {
@@ -362,7 +381,7 @@ std::vector<Point> GridSpace::normals(SampleRule rule) const {
   if (dimension_ != 2 || grid_.even())
     return std::vector<Point>(vertices ? grid_.nodes() : quadrature_points(), Point{0, 0, 1});
   if (vertices) {
-    auto normal = around_nodes<Point>([](std::size_t, const CellPoint& p) { return point(p.normal); });
+    auto normal = around_nodes<Point>(sides(), [](std::size_t, const CellPoint& p) { return point(p.normal); });
     for (Point& n : normal) n = unit(n);
     return normal;
   }
@@ -379,8 +398,10 @@ std::vector<Tensor> GridSpace::curvature(SampleRule rule) const {
   const std::vector<Point> normal = normals(SampleRule::vertices);
   const auto shape_operator = [&](std::size_t k, const CellPoint& p) {
     Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
-    for (std::size_t c = 0; c < n; ++c)
-      s += vector(normal[at(cells().corner[k / n * n + c])]) * p.gradient[c].transpose();
+    for (std::size_t c = 0; c < n; ++c) {
+      const Point& own = normal[at(cells().corner[k / n * n + c])];
+      s += side(own, p) * vector(own) * p.gradient[c].transpose();
+    }
     return tensor((s + s.transpose()) / 2);
   };
   if (rule == SampleRule::quadrature) {
@@ -390,7 +411,7 @@ std::vector<Tensor> GridSpace::curvature(SampleRule rule) const {
     });
     return result;
   }
-  std::vector<Tensor> result = around_nodes<Tensor>(shape_operator);
+  std::vector<Tensor> result = around_nodes<Tensor>(normal, shape_operator);
   const Vector weight = *matrices().mass * Vector::Ones(unknowns());
   for (std::size_t v = 0; v < result.size(); ++v)
     for (double& x : result[v])
@@ -418,22 +439,6 @@ std::vector<double> GridSpace::at_quadrature_points(const std::vector<double>& a
   });
   return values;
 }
-
-namespace {
-
-/// a1^2 d d' + a2^2 (1 - d d') with the main direction d of a mean of lines.
-Tensor volume_tensor(const Tensor& mean, double a1, double a2) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(matrix_of(mean));
-  const Eigen::Vector3d d = axes.eigenvectors().col(2);
-  return tensor(a2 * a2 * Eigen::Matrix3d::Identity() + (a1 * a1 - a2 * a2) * d * d.transpose());
-}
-
-void require_unturned(const Kinetics::TensorField& rates) {
-  if (std::ranges::any_of(rates.theta, [](double theta) { return theta != 0; }))
-    throw Error(Fault::usage, "directions in a volume cannot be turned by an angle; let theta be 0 and give the lines");
-}
-
-}  // namespace
 
 Tensor lattice_tensor(const Lattice& lattice, const Tensor& line, const Kinetics::TensorField& rates) {
   const double theta = rates.theta[0], a1 = rates.a1[0], a2 = rates.a2[0];

@@ -13,8 +13,8 @@
 namespace pelage {
 
 /// Coefficients are the values at the nodes. Matrices are made when they are first asked for. Normals are those of
-/// sheets, seen from where the first axis turns counter-clockwise to the second; lines and volumes have (0, 0, 1), and
-/// no curvature. Reactions act at the nodes as load(f) = M f.
+/// sheets, seen from where the first axis turns counter-clockwise to the second (at the nodes of one-sided surfaces
+/// from either side); lines and volumes have (0, 0, 1), and no curvature. Reactions act at the nodes as load(f) = M f.
 class GridSpace final : public Space {
  public:
   /// Error(Fault::input) for grids that are not sound.
@@ -75,8 +75,11 @@ class GridSpace final : public Space {
   std::vector<Point> positions(SampleRule rule) const;
   std::vector<Point> normals(SampleRule rule) const;
   std::vector<Tensor> curvature(SampleRule rule) const;
+  /// -1 where the normal is on the other side of a one-sided surface than that of the cell, else 1.
+  double side(const Point& normal, const CellPoint& p) const;
+  std::vector<Point> sides() const;
   template <class Value, class At>
-  std::vector<Value> around_nodes(const At& at_point) const;
+  std::vector<Value> around_nodes(const std::vector<Point>& normal, const At& at_point) const;
 
   Grid grid_;  ///< without attributes; of an atlas a row of all its nodes
   int dimension_;

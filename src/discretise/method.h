@@ -42,6 +42,9 @@ extern const Method loop_method;
 extern const Method linear_method;
 extern const Method grid_method;
 extern const Method mask_method;
+extern const Method tets_method;
+extern const Method cell_method;
+extern const Method turk_method;
 
 /// Those that come with the program, the default first.
 std::span<const Method* const> methods();

@@ -311,9 +311,9 @@ std::vector<Point> mapped(const SurfaceMap* map, const std::vector<Point>& point
 }
 
 /// Lengths on the surface, times the root of the attraction: nodes per area become nodes per length.
-void measure(CurveSamples& samples, const std::vector<Point>& points, const FormulaFunction* attract) {
+void measure(CurveSamples& samples, const std::vector<Point>& points, const NodeDensity* attract) {
   std::vector<double> density(points.size(), 1);
-  if (attract) density = attraction_with_gradient(*attract, points)[0];
+  if (attract) density = attract->with_gradient(points)[0];
   for (std::size_t i = 1; i < points.size(); ++i)
     samples.length[i] =
         samples.length[i - 1] + distance(points[i], points[i - 1]) * std::sqrt((density[i] + density[i - 1]) / 2);
@@ -346,8 +346,7 @@ std::vector<HeldNode> held_nodes(const CurveSamples& samples, const std::vector<
   return held;
 }
 
-std::vector<Point> spread(const Curve& curve, std::int32_t count, const SurfaceMap* map,
-                          const FormulaFunction* attract) {
+std::vector<Point> spread(const Curve& curve, std::int32_t count, const SurfaceMap* map, const NodeDensity* attract) {
   CurveSamples samples = sample(curve, 2000);
   const std::vector<Point> points = mapped(map, samples.points);
   measure(samples, points, attract);
@@ -375,21 +374,6 @@ bool is_flat(const Sides& sides, bool ring) {
   for (std::size_t k = 0; k < 4; k += ring ? 2 : 1)
     if (!is_flat(sides[k])) return false;
   return true;
-}
-
-std::vector<std::vector<double>> attraction_with_gradient(const FormulaFunction& attract,
-                                                          std::span<const Point> points) {
-  std::vector<std::vector<double>> xyz(3, std::vector<double>(points.size()));
-  for (std::size_t k = 0; k < 3; ++k)
-    for (std::size_t i = 0; i < points.size(); ++i) xyz[k][i] = points[i][k];
-  std::vector<std::vector<double>> values = attract.with_gradient(xyz);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (!(values[0][i] > 0 && std::isfinite(values[0][i])))
-      throw Error(Fault::usage,
-                  "the attraction must be a positive number everywhere; at " + place_text(points[i]) + " it is " +
-                      number(values[0][i]),
-                  attract.where());
-  return values;
 }
 
 void require_enough(const Region& region, const Border& border, const std::array<std::int32_t, 2>& count) {
@@ -422,7 +406,7 @@ Sides order_sides(const Region& region, std::vector<Finding>& findings) {
 Border make_border(const Region& region, const Sides& sides, const std::array<std::int32_t, 2>& count,
                    const SurfaceMap* map) {
   Border border;
-  const FormulaFunction* attract = region.attract ? &*region.attract : nullptr;
+  const NodeDensity* attract = region.attract ? &*region.attract : nullptr;
   for (std::size_t k = 0; k < 4; k += region.ring ? 2 : 1) {
     border.side[k] = spread(sides[k], count[k % 2] + (region.ring ? 1 : 0), map, attract);
     if (region.ring) border.side[k].pop_back();

@@ -39,10 +39,6 @@ Border make_border(const Region& region, const Sides& sides, const std::array<st
 /// Error(usage), located, where straight edges between so few nodes cut across the border.
 void require_enough(const Region& region, const Border& border, const std::array<std::int32_t, 2>& count);
 
-/// The attraction at points in space; Error(usage), located, where it is not greater than 0.
-std::vector<std::vector<double>> attraction_with_gradient(const FormulaFunction& attract,
-                                                          std::span<const Point> points);
-
 /// "(0.5, -1)", or with z where that is not 0.
 std::string place_text(const Point& p);
 

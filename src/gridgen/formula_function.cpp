@@ -1,5 +1,7 @@
 #include "gridgen/formula_function.h"
 
+#include <algorithm>
+
 #include "base/suggest.h"
 #include "react/derivative.h"
 #include "react/place_values.h"

@@ -136,7 +136,7 @@ double corner_mean(const Sheet& sheet, const std::vector<Point>& nodes, CornerFu
 }
 
 SheetFunctional::SheetFunctional(const Sheet& sheet, const std::vector<Point>& nodes, const GridWeights& weights,
-                                 const FormulaFunction* attract, const SurfaceMap* map)
+                                 const NodeDensity* attract, const SurfaceMap* map)
     : sheet_(sheet), weights_(weights), attract_(attract), map_(map) {
   const double all = weights.length + weights.smoothness + weights.area + weights.orthogonality;
   weights_ = {weights.length / all, std::max(weights.smoothness / all, least_smoothness), weights.area / all,
@@ -161,7 +161,7 @@ SheetFunctional::Attraction SheetFunctional::attraction(const std::vector<Point>
   if (!attract_) return result;
   std::vector<Point> middles(cells);
   for (std::size_t c = 0; c < cells; ++c) middles[c] = middle(corner_points(sheet_, c, x));
-  const auto values = attraction_with_gradient(*attract_, middles);
+  const auto values = attract_->with_gradient(middles);
   for (std::size_t c = 0; c < cells; ++c) {
     result.value[c] = values[0][c] / attraction_;
     for (std::size_t k = 0; k < 3; ++k) result.gradient[c][k] = values[k + 1][c] / attraction_;

@@ -31,7 +31,7 @@ class SheetFunctional {
   /// Lengths and areas are counted in the means of these nodes. Without `map` the surface is the plane. `attract` and
   /// `map` must outlive it.
   SheetFunctional(const Sheet& sheet, const std::vector<Point>& nodes, const GridWeights& weights,
-                  const FormulaFunction* attract, const SurfaceMap* map);
+                  const NodeDensity* attract, const SurfaceMap* map);
 
   /// The weighted sum, infinite where a corner of a cell is folded in the plane; as F_S grows beyond all bounds before,
   /// its weight is at least 0.01 of all. Fills the gradient by the plane's coordinates.
@@ -50,7 +50,7 @@ class SheetFunctional {
 
   Sheet sheet_;
   GridWeights weights_;
-  const FormulaFunction* attract_;
+  const NodeDensity* attract_;
   const SurfaceMap* map_;
   double along2_ = 1, across2_ = 1, area_ = 1;  ///< mean squared lengths and mean area, in space
   double attraction_ = 1;                       ///< the mean

@@ -59,7 +59,7 @@ class Generator {
   }
 
   Border border(const Sheet& sheet) const { return make_border(region_, sides_, sheet.count, map_.get()); }
-  const FormulaFunction* attract() const { return region_.attract ? &*region_.attract : nullptr; }
+  const NodeDensity* attract() const { return region_.attract ? &*region_.attract : nullptr; }
 
   std::optional<Level> coarser(const Sheet& sheet) const {
     const std::array<std::int32_t, 2> half = {(sheet.count[0] + 1) / 2, (sheet.count[1] + 1) / 2};

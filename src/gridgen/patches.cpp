@@ -30,6 +30,15 @@ Counts read_counts(const Value& value) {
   return {count(value.items()[0]), count(value.items()[1])};
 }
 
+/// Error(usage) where so many more patches would need more memory than there is.
+void require_room(const Counts& nodes, std::size_t count, const std::vector<Atlas::Patch>& patches,
+                  const Location& where) {
+  constexpr double most = 3e7;  // nodes
+  double all = static_cast<double>(count) * nodes[0] * nodes[1];
+  for (const Atlas::Patch& p : patches) all += static_cast<double>(p.grid.points.size());
+  if (all > most) throw Error(Fault::usage, "patches of more than 30 million nodes need too much memory", where);
+}
+
 /// Places for u and v at even steps from 0 to 1.
 std::vector<std::vector<double>> parameters_of(const Counts& nodes) {
   std::vector<std::vector<double>> uv(2);
@@ -107,6 +116,7 @@ class PatchReader {
     if ((formula != nullptr) + (bezier != nullptr) + (file != nullptr) != 1)
       throw Error(Fault::usage, "a patch has either formulas of u and v, or 16 Bezier control points, or a .bpt file",
                   table.where());
+    require_room(nodes, file ? 0 : 1, patches, table.where());
     if (formula) patches.push_back(patch_of(name, nodes, formula_points(*formula, nodes, numbers_)));
     if (bezier) patches.push_back(patch_of(name, nodes, bezier_points(read_control(*bezier), nodes)));
     if (file) read_file(name, file->string(), nodes, patches);
@@ -117,7 +127,9 @@ class PatchReader {
                  std::vector<Atlas::Patch>& patches) const {
     const std::string path = (std::filesystem::path(folder_) / file).string();
     std::size_t number = 0;
-    for (const std::array<Point, 16>& control : parse_bpt(read_text(path), path))
+    const std::vector<std::array<Point, 16>> all = parse_bpt(read_text(path), path);
+    require_room(nodes, all.size(), patches, {path});
+    for (const std::array<Point, 16>& control : all)
       patches.push_back(patch_of(name + std::to_string(++number), nodes, bezier_points(control, nodes)));
   }
 

@@ -6,6 +6,8 @@
 
 #include "base/number.h"
 #include "gridgen/svg_path.h"
+#include "io/grid_file.h"
+#include "pelage/error.h"
 #include "recipe/document.h"
 
 namespace pelage {
@@ -176,6 +178,39 @@ void read_border(const Value& document, const Numbers& numbers, Region& region) 
   }
 }
 
+/// field = "FILE", or { file = "FILE", box = [[X, Y], [X, Y]] }: what the text of a formula reads of it.
+std::shared_ptr<const PlaneField> read_field(const Value& v, const std::string& reader) {
+  const bool plain = v.kind() == Value::Kind::string;
+  const std::filesystem::path folder = std::filesystem::path(v.where().file).parent_path();
+  const std::string path = (folder / (plain ? v.string() : v.at("file").string())).string();
+  const Grid sheet = read_grid(path).grid;
+  std::shared_ptr<PlaneField> field;
+  try {
+    field = std::make_shared<PlaneField>(sheet, names_read(sheet, reader));
+  } catch (const Error& error) {
+    throw Error(error.fault(), error.what(), {path});
+  }
+  const Value* box = plain ? nullptr : v.find("box");
+  if (!box) return field;
+  if (box->items().size() != 2)
+    throw Error(Fault::usage, "a box is two opposite corners, [[X, Y], [X, Y]]", box->where());
+  const Point low = read_point(box->items()[0]), high = read_point(box->items()[1]);
+  if (!(low[0] < high[0] && low[1] < high[1]))
+    throw Error(Fault::usage, "the first corner of a box lies below and to the left of the second", box->where());
+  field->lay_between({low[0], low[1]}, {high[0], high[1]});
+  return field;
+}
+
+std::optional<NodeDensity> read_attraction(const Value& document, const Numbers& numbers) {
+  const Value *v = document.find("attract"), *file = document.find("field");
+  if (file && !v) throw Error(Fault::usage, "a field is what attract reads; give that formula, too", file->where());
+  if (!v) return {};
+  const Formula attract = formula(*v);
+  std::shared_ptr<const PlaneField> field;
+  if (file) field = read_field(*file, attract.text);
+  return NodeDensity(FormulaFunction(attract, NodeDensity::variables(field.get()), numbers), field);
+}
+
 }  // namespace
 
 Region parse_region(std::string_view text, const std::string& file) {
@@ -190,8 +225,7 @@ Region parse_region(std::string_view text, const std::string& file) {
   region.ring = read_periodic(document);
   if (!region.volume) read_border(document, numbers, region);
   region.weights = read_weights(document);
-  if (const Value* v = document.find("attract"))
-    region.attract.emplace(formula(*v), std::vector<std::string>{"x", "y", "z"}, numbers);
+  region.attract = read_attraction(document, numbers);
   if (const Value* v = document.find("surface")) region.surface = read_formulas(*v, {"u", "v"}, numbers);
   document.require_all_read();
   if (region.volume && (region.ring || region.attract || region.surface))

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gridgen/curve.h"
+#include "gridgen/node_density.h"
 
 namespace pelage {
 
@@ -54,7 +55,7 @@ struct Region {
   std::optional<Volume> volume;                 ///< instead of sides
   std::optional<Outline> outline;               ///< instead of sides
   GridWeights weights;
-  std::optional<FormulaFunction> attract;                 ///< of x, y, z: nodes per area in proportion
+  std::optional<NodeDensity> attract;
   std::optional<std::array<FormulaFunction, 3>> surface;  ///< of u and v, in which the borders are then given
 };
 

@@ -17,6 +17,7 @@
 #include "base/suggest.h"
 #include "io/gltf_document.h"
 #include "pelage/error.h"
+#include "pelage/io.h"
 #include "shape/split_corners.h"
 
 namespace pelage {
@@ -349,11 +350,39 @@ void add_materials(tinygltf::Model& model, const TriangleMesh& mesh) {
     model.materials.push_back(coat_material(as_utf8(label_of(material, i, "coat")), !closed));
 }
 
+/// As PNG, the base colour of all materials.
+void add_texture(tinygltf::Model& model, const Image& texture) {
+  const std::string png = png_bytes(texture);
+  std::vector<unsigned char>& data = model.buffers[0].data;
+  constexpr std::size_t whole = 4;  // arrays that follow begin at multiples of their numbers' size
+  tinygltf::BufferView view;
+  view.buffer = 0;
+  view.byteOffset = data.size();
+  view.byteLength = png.size();
+  data.insert(data.end(), png.begin(), png.end());
+  data.resize((data.size() + whole - 1) / whole * whole);
+  tinygltf::Image image;
+  image.mimeType = "image/png";
+  image.bufferView = static_cast<int>(model.bufferViews.size());
+  model.bufferViews.push_back(view);
+  model.images.push_back(image);
+  tinygltf::Sampler sampler;
+  sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
+  sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
+  sampler.wrapS = sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+  model.samplers.push_back(sampler);
+  tinygltf::Texture reference;
+  reference.source = reference.sampler = 0;
+  model.textures.push_back(reference);
+  for (tinygltf::Material& m : model.materials) m.pbrMetallicRoughness.baseColorTexture.index = 0;
+}
+
 }  // namespace
 
 std::string encode_glb(const TriangleMesh& original, const GlbOptions& options) {
   if (original.triangles.empty()) throw Error(Fault::output, "a GLB file needs at least one triangle");
   TriangleMesh mesh = original;
+  if (options.texture) std::erase_if(mesh.attributes, [](const Attribute& a) { return a.name == "color"; });
   if (options.up == UpAxis::z) stand_up(mesh);
   const Placement place = placement_of(mesh);
   tinygltf::Model model;
@@ -362,6 +391,7 @@ std::string encode_glb(const TriangleMesh& original, const GlbOptions& options) 
   model.scenes.resize(1);
   model.defaultScene = 0;
   add_materials(model, mesh);
+  if (options.texture) add_texture(model, *options.texture);
   const Attribute* object = labels(mesh, "object");
   const auto objects = faces_by_label(object, mesh.triangles.size());
   std::vector<std::int32_t> number(mesh.points.size(), -1);

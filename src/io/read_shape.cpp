@@ -1,6 +1,7 @@
 #include "io/read_shape.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <numeric>
@@ -14,12 +15,14 @@
 #include "io/off_reader.h"
 #include "io/ply_reader.h"
 #include "io/stl_reader.h"
+#include "io/tet_file.h"
 #include "io/text_scanner.h"
 #include "pelage/io.h"
 #include "shape/builtin_grids.h"
 #include "shape/generators.h"
 #include "shape/grid.h"
 #include "shape/repair.h"
+#include "shape/tet_mesh.h"
 
 namespace pelage {
 
@@ -120,6 +123,9 @@ std::vector<std::int32_t> vertices_of_corners(const TriangleMesh& mesh, std::siz
   return vertex;
 }
 
+/// Fewer points without faces say nothing of a surface.
+constexpr std::size_t fewest_of_cloud = 32;
+
 /// The name of the only object of the file, where it has one.
 std::string only_name(const RawShape& raw) {
   const Attribute* object = raw.mesh.find("object");
@@ -128,7 +134,51 @@ std::string only_name(const RawShape& raw) {
 
 bool is_normal(const Attribute& a) { return a.name == "normal" && a.components == 3; }
 
+/// Points without faces are the vertices of a mesh without triangles, in the order of the file. Scanners write them as
+/// PLY; in other formats the faces are more likely to have been lost.
+bool is_cloud(const RawShape& raw, const std::string& path) {
+  const bool points = raw.mesh.face_ends.empty() && raw.mesh.points.size() >= fewest_of_cloud;
+  if (points && lower_extension(path) != ".ply")
+    throw Error(Fault::input, "the shape has points and no faces; clouds of points are read from PLY", {path});
+  return points;
+}
+
+/// Those with coordinates to compute with; attributes follow.
+void drop_lost_points(PolygonMesh& mesh, std::vector<Finding>& findings) {
+  constexpr double largest = 1e75;  // as repair has it
+  std::vector<std::size_t> kept;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    if (std::ranges::all_of(mesh.points[v], [](double x) { return std::abs(x) <= largest; })) kept.push_back(v);
+  const std::size_t lost = mesh.points.size() - kept.size();
+  if (lost == 0) return;
+  for (std::size_t k = 0; k < kept.size(); ++k) mesh.points[k] = mesh.points[kept[k]];
+  mesh.points.resize(kept.size());
+  for (Attribute& a : mesh.attributes) {
+    const auto n = static_cast<std::size_t>(a.components);
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      for (std::size_t c = 0; c < n; ++c) a.values[n * k + c] = a.values[n * kept[k] + c];
+    a.values.resize(n * kept.size());
+  }
+  findings.push_back({"lost-points", counted(lost, "point") + " without finite coordinates; left out", lost, 0, true});
+}
+
+ShapeFile cloud(RawShape raw) {
+  ShapeFile file;
+  file.findings = std::move(raw.findings);
+  file.up = raw.up;
+  file.name = only_name(raw);
+  clear_non_finite_attributes(raw.mesh.attributes, file.findings);
+  std::erase_if(raw.mesh.attributes, [](const Attribute& a) { return a.domain != Domain::vertex; });
+  drop_lost_points(raw.mesh, file.findings);
+  file.findings.push_back({"cloud", "no faces: a cloud of points", raw.mesh.points.size(), 0, false});
+  file.mesh.metres_per_unit = raw.metres_per_unit;
+  file.mesh.points = std::move(raw.mesh.points);
+  file.mesh.attributes = std::move(raw.mesh.attributes);
+  return file;
+}
+
 ShapeFile mended(RawShape raw, const std::string& path) {
+  if (is_cloud(raw, path)) return cloud(std::move(raw));
   ShapeFile file;
   file.findings = std::move(raw.findings);
   file.up = raw.up;
@@ -156,16 +206,11 @@ ShapeFile mended(RawShape raw, const std::string& path) {
 void check_shape_path(const std::string& path) {
   if (is_builtin_grid(path)) return check_builtin_grid(path);
   if (is_builtin_shape(path)) return check_builtin_shape(path);
-  if (!is_grid_file(path)) format_of(path);
+  if (!is_grid_file(path) && !is_tet_file(path)) format_of(path);
   require_file(path);
 }
 
 bool is_grid_shape(const std::string& path) { return is_builtin_grid(path) || is_grid_file(path); }
-
-ShapeFile read_shape_bytes(std::string_view bytes, const std::string& name) {
-  const Format& format = format_of(name);
-  return mended(read_raw(format, bytes, name), name);
-}
 
 namespace {
 
@@ -177,11 +222,26 @@ ShapeFile grid_shape(GridFile grid) {
   return file;
 }
 
+ShapeFile tet_shape(TetFile tets) {
+  ShapeFile file;
+  file.mesh = mesh_of(tets.volume);
+  file.findings = std::move(tets.findings);
+  file.nodes = std::make_shared<const NodeShape>(std::move(tets.volume));
+  return file;
+}
+
 }  // namespace
+
+ShapeFile read_shape_bytes(std::string_view bytes, const std::string& name) {
+  if (is_tet_file(name)) return tet_shape(read_tet_bytes(bytes, name));
+  const Format& format = format_of(name);
+  return mended(read_raw(format, bytes, name), name);
+}
 
 ShapeFile read_shape(const std::string& path) {
   if (is_builtin_grid(path)) return grid_shape({builtin_grid(path), {}});
   if (is_grid_file(path)) return grid_shape(read_grid(path));
+  if (is_tet_file(path)) return tet_shape(read_tets(path));
   if (is_builtin_shape(path)) return {builtin_shape(path), {}, UpAxis::y, {}, nullptr};
   const Format& format = format_of(path);
   RawShape raw;
@@ -190,6 +250,45 @@ ShapeFile read_shape(const std::string& path) {
     raw = read_raw(format, bytes, path);
   }
   return mended(std::move(raw), path);
+}
+
+namespace {
+
+void require_numbers(const TriangleMesh& mesh, const std::string& path) {
+  const auto lost = [&](std::int32_t v) {
+    return v < 0 || static_cast<std::size_t>(v) >= mesh.points.size() ||
+           !std::ranges::all_of(mesh.points[static_cast<std::size_t>(v)], [](double x) { return std::isfinite(x); });
+  };
+  if (mesh.triangles.empty()) throw Error(Fault::input, "the shape has no faces; nothing can grow on it", {path});
+  for (const Triangle& t : mesh.triangles)
+    if (std::ranges::any_of(t, lost)) throw Error(Fault::input, "a face has a vertex that is nowhere", {path});
+}
+
+}  // namespace
+
+ShapeFile read_polygons(const std::string& path) {
+  const Format& format = format_of(path);
+  RawShape raw = read_raw(format, read_file(path), path);
+  ShapeFile file;
+  file.findings = std::move(raw.findings);
+  file.up = raw.up;
+  file.name = only_name(raw);
+  clear_non_finite_attributes(raw.mesh.attributes, file.findings);
+  auto source = std::make_shared<SourceShape>(SourceShape{raw.mesh, {}});
+  const std::size_t corners = raw.mesh.corners.size();
+  std::erase_if(raw.mesh.attributes, is_normal);
+  raw.mesh.attributes.push_back(corner_numbers(corners));
+  try {
+    file.mesh = triangulate(std::move(raw.mesh), file.findings).mesh;
+  } catch (const ShapeFault& fault) {
+    throw located(fault, raw, path);
+  }
+  require_numbers(file.mesh, path);
+  file.mesh.metres_per_unit = raw.metres_per_unit;
+  source->vertex = vertices_of_corners(file.mesh, corners);
+  std::erase_if(file.mesh.attributes, [](const Attribute& a) { return a.name == file_corner; });
+  file.source = std::move(source);
+  return file;
 }
 
 ShapeFile check_shape(TriangleMesh mesh) {

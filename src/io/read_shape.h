@@ -1,7 +1,9 @@
 #pragma once
-// What can be said of a shape before it is read.
+// What can be said of a shape before it is read, and files that read_shape() refuses.
 
 #include <string>
+
+#include "pelage/io.h"
 
 namespace pelage {
 
@@ -11,5 +13,9 @@ void check_shape_path(const std::string& path);
 
 /// Whether read_shape() would give a grid.
 bool is_grid_shape(const std::string& path);
+
+/// Polygons as they are, cut into triangles but not repaired: edges may have any number of faces, in any order. For
+/// cells alone (shape/cells.h). Error(Fault::input) where there are none, or numbers or coordinates that are none.
+ShapeFile read_polygons(const std::string& path);
 
 }  // namespace pelage

@@ -20,24 +20,10 @@ std::string extent_of(const Grid& grid) {
 
 std::string triple(const Point& p) { return exact_number(p[0]) + " " + exact_number(p[1]) + " " + exact_number(p[2]); }
 
-std::vector<double> coordinates(const Grid& grid) {
-  std::vector<double> values;
-  values.reserve(3 * grid.nodes());
-  for (std::size_t v = 0; v < grid.nodes(); ++v) {
-    const Point p = grid.point(static_cast<std::int32_t>(v));
-    values.insert(values.end(), p.begin(), p.end());
-  }
-  return values;
-}
-
-bool is_float(double x) { return static_cast<double>(static_cast<float>(x)) == x; }
-
-void append_points(std::string& text, const Grid& grid) {
-  const std::vector<double> values = coordinates(grid);
-  const NumberType type = std::ranges::all_of(values, is_float) ? NumberType::float32 : NumberType::float64;
-  text += "<Points>\n";
-  append_vtk_array(text, vtk_name(type), "Points", 3, packed(values, type));
-  text += "</Points>\n";
+std::vector<Point> points_of(const Grid& grid) {
+  std::vector<Point> points(grid.nodes());
+  for (std::size_t v = 0; v < points.size(); ++v) points[v] = grid.point(static_cast<std::int32_t>(v));
+  return points;
 }
 
 std::vector<double> periods(const Grid& grid) {
@@ -57,8 +43,7 @@ void append_field_data(std::string& text, const Grid& grid, bool with_points) {
                      packed({grid.periodic.begin(), grid.periodic.end()}, NumberType::int8), 1);
     if (with_points) append_vtk_array(data, "Float64", "period", 3, packed(periods(grid), NumberType::float64), 3);
   }
-  if (grid.metres_per_unit)
-    append_vtk_array(data, "Float64", "metres_per_unit", 1, packed({*grid.metres_per_unit}, NumberType::float64), 1);
+  data += vtk_unit(grid.metres_per_unit);
   if (!data.empty()) text += "<FieldData>\n" + data + "</FieldData>\n";
 }
 
@@ -66,7 +51,7 @@ void append_piece(std::string& text, const Grid& grid, bool with_points) {
   text += "<Piece Extent=\"" + extent_of(grid) + "\">\n" + vtk_point_data_tag(grid.attributes);
   for (const Attribute& a : grid.attributes) append_vtk_attribute(text, a, ColorBits::as_stored);
   text += "</PointData>\n";
-  if (with_points) append_points(text, grid);
+  if (with_points) append_vtk_points(text, points_of(grid));
   text += "</Piece>\n";
 }
 

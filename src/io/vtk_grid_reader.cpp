@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "base/checked.h"
-#include "io/vertex_colors.h"
+#include "io/vtk_attributes.h"
 #include "io/vtk_document.h"
 #include "pelage/error.h"
 #include "shape/grid.h"
@@ -36,15 +36,6 @@ struct Piece {
   Extent extent;
 };
 
-/// How our attributes are called that VTK's programs know by another name.
-std::string attribute_name(const std::string& array) {
-  if (array == "RGB" || array == "RGBA") return "color";
-  if (array == "Normals") return "normal";
-  return array == "TextureCoordinates" ? "uv" : array;
-}
-
-constexpr const char* ghosts = "vtkGhostType";  // bits that say which nodes and cells are hidden
-
 class GridReader {
  public:
   GridReader(std::string_view bytes, const std::string& path) : document_(bytes, path) {}
@@ -55,7 +46,6 @@ class GridReader {
     find_pieces();
     place_nodes();
     read_attributes();
-    read_field_data();
     note_cell_data();
     leave_out_flat_axes();
     clear_non_finite_attributes(file_.grid.attributes, file_.findings);
@@ -147,13 +137,13 @@ class GridReader {
             row);
   }
 
-  /// The values of an array that every piece has; find(piece) gives it.
+  /// The values of an array that every piece has; find(number of the piece) gives it.
   template <class Find>
   std::vector<double> joined(std::size_t components, Find&& find) const {
-    if (one_piece()) return document_.values(find(pieces_[0]), components * whole_.nodes());
+    if (one_piece()) return document_.values(find(0), components * whole_.nodes());
     std::vector<std::vector<double>> parts;  // before the whole takes memory
-    for (const Piece& piece : pieces_)
-      parts.push_back(document_.values(find(piece), components * piece.extent.nodes()));
+    for (std::size_t p = 0; p < pieces_.size(); ++p)
+      parts.push_back(document_.values(find(p), components * pieces_[p].extent.nodes()));
     std::vector<double> whole(components * whole_.nodes());
     for (std::size_t p = 0; p < parts.size(); ++p)
       for_each_row(pieces_[p].extent, [&](std::size_t from, std::size_t to, std::size_t n) {
@@ -228,7 +218,8 @@ class GridReader {
   }
 
   void read_points() {
-    const std::vector<double> values = joined(3, [&](const Piece& piece) {
+    const std::vector<double> values = joined(3, [&](std::size_t p) {
+      const Piece& piece = pieces_[p];
       const pugi::xml_node array = piece.element.child("Points").child("DataArray");
       if (!array) document_.fail(piece.element, "the piece has no points");
       return array;
@@ -263,63 +254,18 @@ class GridReader {
 
   // --- values ---
 
-  std::size_t components_of(pugi::xml_node array) const {
-    constexpr std::int64_t most = 1024;
-    return static_cast<std::size_t>(document_.whole(array, "NumberOfComponents", 1, 1, most));
-  }
-
   void read_attributes() {
-    std::size_t number = 0;
-    for (const pugi::xml_node array : pieces_[0].element.child("PointData").children()) {
-      const std::string name = array.attribute("Name").as_string();
-      if (name == ghosts)
-        refuse_hidden(array, 2, whole_.nodes());
-      else if (!VtkDocument::type_of(array))
-        note("left-out", "the point data \"" + name + "\" are no numbers; left out");
-      else
-        add(read_attribute(array, name.empty() ? "array_" + std::to_string(number) : name), array);
-      ++number;
-    }
-  }
-
-  Attribute read_attribute(pugi::xml_node first, const std::string& name) {
-    const std::size_t components = components_of(first);
-    Attribute a{attribute_name(name), static_cast<int>(components), Domain::vertex, {}, *VtkDocument::type_of(first)};
-    a.values = joined(components, [&](const Piece& piece) {
-      if (piece.element == pieces_[0].element) return first;
-      const pugi::xml_node array =
-          piece.element.child("PointData").find_child_by_attribute("Name", first.attribute("Name").as_string());
-      if (!array || components_of(array) != components || VtkDocument::type_of(array) != VtkDocument::type_of(first))
-        document_.fail(piece.element, "the piece has no array \"" + name + "\" as the first one has");
-      return array;
-    });
-    return a;
-  }
-
-  void add(Attribute a, pugi::xml_node array) {
-    if (std::string_view(array.attribute("type").as_string()).ends_with("Int64")) narrow(a);
-    if (is_color(a)) {
-      const std::string name = a.name;
-      a = linear_color(std::move(a.values), a.components, file_.findings, a.type);
-      a.name = name;
-    }
-    if (file_.grid.find(a.name)) {
-      note("left-out", "a second array \"" + a.name + "\" is left out");
-      return;
-    }
-    file_.grid.set(std::move(a));
-  }
-
-  /// The type of 64 bit integers: 32 bits where they have room.
-  void narrow(Attribute& a) {
-    const auto [low, high] = std::ranges::minmax(a.values);
-    constexpr double exact = 9007199254740992.0;
-    if (low >= -2147483648.0 && high <= 2147483647.0)
-      a.type = NumberType::int32;
-    else if (low >= 0 && high <= 4294967295.0)
-      a.type = NumberType::uint32;
-    else if (low < -exact || high > exact)
-      note("rounded-integers", "the array \"" + a.name + "\" has integers of more than 53 bits: rounded");
+    for (const pugi::xml_node array : pieces_[0].element.child("PointData").children())
+      if (array.attribute("Name").as_string() == std::string_view(vtk_ghosts)) refuse_hidden(array, 2, whole_.nodes());
+    std::vector<pugi::xml_node> elements;
+    for (const Piece& piece : pieces_) elements.push_back(piece.element);
+    const VtkAttributes reader(document_, elements, file_.findings);
+    Grid& grid = file_.grid;
+    grid.attributes =
+        reader.read("PointData", Domain::vertex,
+                    [&](std::size_t components, const VtkAttributes::Find& find) { return joined(components, find); });
+    reader.read_field_data(data_, grid.attributes, grid.metres_per_unit,
+                           [&](pugi::xml_node array, const std::string& name) { return take_field(array, name); });
   }
 
   void refuse_hidden(pugi::xml_node array, unsigned bit, std::size_t count) const {
@@ -334,7 +280,7 @@ class GridReader {
     for (const pugi::xml_node array : pieces_[0].element.child("CellData").children()) {
       const std::string name = array.attribute("Name").as_string();
       constexpr unsigned hidden = 32;
-      if (name == ghosts)
+      if (name == vtk_ghosts)
         refuse_hidden(array, hidden, whole_.cells());
       else
         note("cell-data", "the cell data \"" + name +
@@ -343,33 +289,15 @@ class GridReader {
     }
   }
 
-  void read_field_data() {
-    // VTK has them beside the data set or, where they were its own, inside of it.
-    for (const pugi::xml_node parent : {data_, document_.root()})
-      for (const pugi::xml_node array : parent.child("FieldData").children())
-        if (!take_field(array, array.attribute("Name").as_string()) &&
-            std::string_view(array.attribute("Name").as_string()) != "TimeValue")
-          note("left-out", std::string("the field data \"") + array.attribute("Name").as_string() + "\" are left out");
-  }
-
-  /// Whether it is one of those that our files have.
+  /// Whether it is one of those that our files of grids have.
   bool take_field(pugi::xml_node array, const std::string& name) {
     Grid& grid = file_.grid;
-    constexpr std::string_view labels = "_labels";
     if (name == "periodic") {
       const std::vector<double> flags = document_.values(array, 3);
       for (std::size_t d = 0; d < 3; ++d) grid.periodic[d] = flags[d] != 0;
     } else if (name == "period") {
       const std::vector<double> values = document_.values(array, 9);
       for (std::size_t i = 0; i < 9; ++i) grid.period[i / 3][i % 3] = values[i];
-    } else if (name == "metres_per_unit") {
-      grid.metres_per_unit = document_.values(array, 1)[0];
-      if (!(*grid.metres_per_unit > 0 && std::isfinite(*grid.metres_per_unit)))
-        document_.fail(array, "metres_per_unit is not greater than 0");
-    } else if (name.ends_with(labels)) {
-      const auto a = std::ranges::find(grid.attributes, name.substr(0, name.size() - labels.size()), &Attribute::name);
-      if (a == grid.attributes.end()) return false;
-      a->labels = document_.strings(array);
     } else {
       return false;
     }

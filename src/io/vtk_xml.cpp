@@ -119,6 +119,24 @@ std::string vtk_labels(std::span<const Attribute> attributes) {
   return text;
 }
 
+std::string vtk_unit(const std::optional<double>& metres_per_unit) {
+  std::string text;
+  if (metres_per_unit)
+    append_vtk_array(text, "Float64", "metres_per_unit", 1, packed({*metres_per_unit}, NumberType::float64), 1);
+  return text;
+}
+
+void append_vtk_points(std::string& text, const std::vector<Point>& points) {
+  std::vector<double> values;
+  values.reserve(3 * points.size());
+  for (const Point& p : points) values.insert(values.end(), p.begin(), p.end());
+  const auto is_float = [](double x) { return static_cast<double>(static_cast<float>(x)) == x; };
+  const NumberType type = std::ranges::all_of(values, is_float) ? NumberType::float32 : NumberType::float64;
+  text += "<Points>\n";
+  append_vtk_array(text, vtk_name(type), "Points", 3, packed(values, type));
+  text += "</Points>\n";
+}
+
 void append_base64(std::string& text, const std::string& bytes) {
   static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   const std::size_t start = text.size();

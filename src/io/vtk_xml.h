@@ -2,8 +2,10 @@
 // What files of VTK XML have in common on the way out. The arrays are uncompressed base64 within the XML text, because
 // ParaView 5.11 fails on the appended form.
 
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "pelage/triangle_mesh.h"
 
@@ -38,6 +40,12 @@ std::string vtk_point_data_tag(std::span<const Attribute> attributes);
 /// What the numbers of materials, groups and objects mean, as field data NAME_labels: arrays of strings, each ended by
 /// a 0.
 std::string vtk_labels(std::span<const Attribute> attributes);
+
+/// The unit as field data `metres_per_unit`; empty where nothing is known.
+std::string vtk_unit(const std::optional<double>& metres_per_unit);
+
+/// The element Points: Float32 where that changes no number, else Float64.
+void append_vtk_points(std::string& text, const std::vector<Point>& points);
 
 /// Standard base64 with padding (RFC 4648, section 4), appended to `text`.
 void append_base64(std::string& text, const std::string& bytes);

@@ -50,7 +50,13 @@ void rename_input(std::vector<Attribute>& attributes, const Paint& paint) {
 }
 
 TriangleMesh dress(Tessellation t, const Paint& paint, const std::vector<char>& uniform) {
-  std::vector<double> color = pelage::paint(t.samples, make_palette(paint, t.samples, uniform));
+  const Palette palette = make_palette(paint, t.samples, uniform);
+  return dress(std::move(t), palette);
+}
+
+TriangleMesh dress(Tessellation t, const Palette& palette) {
+  std::vector<double> color = pelage::paint(t.samples, palette);
+  const Paint& paint = palette.paint;
   rename_input(t.attributes, paint);
   TriangleMesh mesh{std::move(t.samples.position), std::move(t.triangles), {}, std::move(t.links), t.metres_per_unit};
   mesh.set({"normal", 3, Domain::vertex, flattened(t.samples.normal)});

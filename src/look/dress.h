@@ -13,6 +13,9 @@ void rename_input(std::vector<Attribute>& attributes, const Paint& paint);
 /// it, and the attributes and links of the shape. `uniform` as in CoatFields.
 TriangleMesh dress(Tessellation tessellation, const Paint& paint, const std::vector<char>& uniform);
 
+/// The same in the colours of a palette.
+TriangleMesh dress(Tessellation tessellation, const Palette& palette);
+
 /// What a coat on the mesh of a grid has at its vertices, as attributes of the grid; even grids need no normals.
 Grid on_grid(Grid grid, const TriangleMesh& coat);
 

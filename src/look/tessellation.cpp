@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
+#include "look/cell_tessellation.h"
 #include "pelage/error.h"
 #include "shape/locate.h"
 #include "shape/loop_subdivision.h"
 #include "shape/normals.h"
+#include "shape/one_sided.h"
 #include "shape/refine.h"
 #include "shape/vectors.h"
 
@@ -21,6 +24,8 @@ constexpr std::size_t most_triangles = 1'500'000;
 /// More than this no memory holds.
 constexpr double most_triangles_asked = 3e7;
 
+}  // namespace
+
 std::vector<Attribute> kept_attributes(std::vector<Attribute> attributes) {
   std::vector<Attribute> kept;
   for (Attribute& a : attributes) {
@@ -31,21 +36,10 @@ std::vector<Attribute> kept_attributes(std::vector<Attribute> attributes) {
   return kept;
 }
 
-int levels_for_colour(const CoatFields& fields) {
-  const Topology& finest = fields.hierarchy->topology(fields.hierarchy->finest());
-  double edge = prevailing_edge(finest.triangles, fields.control);
-  std::size_t triangles = finest.triangles.size();
-  int levels = 0;
-  while (edge > fields.wavelength / edges_per_wavelength && 4 * triangles <= most_triangles) {
-    edge /= 2;
-    triangles *= 4;
-    ++levels;
-  }
-  return levels;
-}
+namespace {
 
-int checked_detail(const CoatFields& fields, int detail) {
-  auto triangles = static_cast<double>(fields.hierarchy->topology(fields.hierarchy->finest()).triangles.size());
+int checked_detail(std::size_t count, int detail) {
+  auto triangles = static_cast<double>(count);
   for (int i = 0; i < detail && triangles <= most_triangles_asked; ++i) triangles *= 4;
   if (triangles > most_triangles_asked)
     throw Error(Fault::usage,
@@ -53,10 +47,27 @@ int checked_detail(const CoatFields& fields, int detail) {
   return detail;
 }
 
+}  // namespace
+
+int levels_to_split(double edge, std::size_t triangles, double wavelength, const std::optional<int>& detail) {
+  if (detail) return checked_detail(triangles, *detail);
+  int levels = 0;
+  while (edge > wavelength / edges_per_wavelength && 4 * triangles <= most_triangles) {
+    edge /= 2;
+    triangles *= 4;
+    ++levels;
+  }
+  return levels;
+}
+
+namespace {
+
 /// The levels of the run and those that the colours need beyond.
 Hierarchy levels_of(const CoatFields& fields, const TessellationRequest& request) {
   Hierarchy h = *fields.hierarchy;
-  const int more = request.detail ? checked_detail(fields, *request.detail) : levels_for_colour(fields);
+  const std::vector<Triangle>& finest = h.topology(h.finest()).triangles;
+  const double edge = prevailing_edge(finest, fields.control);
+  const int more = levels_to_split(edge, finest.size(), fields.wavelength, request.detail);
   for (int level = 0; level < more; ++level) h.refine();
   return h;
 }
@@ -69,6 +80,20 @@ VertexAttributes layer_attributes(const std::vector<Texture>& textures, const Te
       if (uv.name == "uv") attributes.merge(texture_attributes(texture, t.triangles, t.samples.size(), uv));
   return attributes;
 }
+
+}  // namespace
+
+void take_rest(const CoatFields& fields, const TriangleMesh& shape, const TessellationRequest& request,
+               Tessellation& t) {
+  t.metres_per_unit = shape.metres_per_unit;
+  if (request.attributes) t.samples.attributes = layer_attributes(fields.textures, t);
+  t.samples.length_unit = fields.length_unit;
+  t.samples.origin = fields.origin;
+  t.samples.period = fields.period;
+  t.samples.seed = fields.seed;
+}
+
+namespace {
 
 /// One making of a tessellation.
 class Tessellator {
@@ -86,11 +111,7 @@ class Tessellator {
     t.attributes = kept_attributes(fields_.shape->attributes);
     t.links = fields_.shape->links;
     for (Attribute& a : t.attributes) levels_.interpolate(a, 0, levels_.finest());
-    if (request_.attributes) t.samples.attributes = layer_attributes(fields_.textures, t);
-    t.metres_per_unit = fields_.shape->metres_per_unit;
-    t.samples.length_unit = fields_.length_unit;
-    t.samples.origin = fields_.origin;
-    t.samples.seed = fields_.seed;
+    take_rest(fields_, *fields_.shape, request_, t);
     return t;
   }
 
@@ -176,12 +197,45 @@ TessellationRequest tessellation_request(const Look& look, const Paint& paint) {
   return request;
 }
 
-namespace {
-
-/// The nodes of a grid or an atlas, whose cells are as fine as its colours can be.
-Tessellation nodes_of_shape(const CoatFields& fields, const TessellationRequest& request) {
+void require_own_nodes(const TessellationRequest& request) {
   if (request.flat || request.detail.value_or(0) > 0)
     throw Error(Fault::usage, "a grid is coloured at its own nodes: leave flat, keep_shape and detail out");
+}
+
+namespace {
+
+template <class T>
+void take(std::vector<T>& values, const std::vector<std::int32_t>& from, std::size_t components = 1) {
+  std::vector<T> taken;
+  taken.reserve(components * from.size());
+  for (const std::int32_t v : from)
+    for (std::size_t k = 0; k < components; ++k) taken.push_back(values[components * static_cast<std::size_t>(v) + k]);
+  values = std::move(taken);
+}
+
+/// A vertex has one normal: where a surface with one side turns over it gets two, which look to either side.
+void give_sides(Tessellation& t) {
+  const std::vector<std::int32_t> node = cut_between_sides(t.triangles, t.samples.size());
+  CoatSamples& s = t.samples;
+  for (auto* vectors : {&s.position, &s.normal}) take(*vectors, node);
+  for (std::vector<double>& field : s.fields) take(field, node);
+  for (auto& [name, values] : s.attributes) take(values, node);
+  for (Attribute& a : t.attributes)
+    if (a.domain == Domain::vertex) take(a.values, node, static_cast<std::size_t>(a.components));
+  const bool curved = !s.curvature.k1.empty();
+  for (auto* k : {&s.curvature.k1, &s.curvature.k2})
+    if (curved) take(*k, node);
+  const std::vector<Point> seen = vertex_normals(t.triangles, s.position);
+  for (std::size_t v = 0; v < s.size(); ++v) {
+    if (dot(seen[v], s.normal[v]) >= 0) continue;
+    for (double& x : s.normal[v]) x = -x;
+    if (curved) std::tie(s.curvature.k1[v], s.curvature.k2[v]) = std::pair{-s.curvature.k2[v], -s.curvature.k1[v]};
+  }
+}
+
+/// The nodes of a shape whose nodes are what they are: as fine as its colours can be.
+Tessellation nodes_of_shape(const CoatFields& fields, const TessellationRequest& request) {
+  require_own_nodes(request);
   Tessellation t;
   t.triangles = fields.shape->triangles;
   PlaceGeometry places = fields.space->geometry(SampleRule::vertices, request.curvature);
@@ -190,20 +244,22 @@ Tessellation nodes_of_shape(const CoatFields& fields, const TessellationRequest&
   t.samples.curvature = std::move(places.curvature);
   t.samples.fields = fields.coefficients;
   t.attributes = kept_attributes(fields.shape->attributes);
-  t.metres_per_unit = fields.shape->metres_per_unit;
-  if (request.attributes) t.samples.attributes = layer_attributes(fields.textures, t);
-  t.samples.length_unit = fields.length_unit;
-  t.samples.origin = fields.origin;
-  t.samples.period = fields.period;
-  t.samples.seed = fields.seed;
+  take_rest(fields, *fields.shape, request, t);
   return t;
 }
 
 }  // namespace
 
 Tessellation tessellate(const CoatFields& fields, const TessellationRequest& request) {
-  if (fields.nodes) return nodes_of_shape(fields, request);
-  return Tessellator(fields, request).make();
+  if (as<Cells>(fields.nodes)) return tessellate_cells(fields, request);
+  if (!fields.nodes) return Tessellator(fields, request).make();
+  Tessellation t = nodes_of_shape(fields, request);
+  if (const Atlas* atlas = as<Atlas>(fields.nodes); atlas && atlas->one_sided) give_sides(t);
+  return t;
+}
+
+CoatSamples samples_at_nodes(const CoatFields& fields, const TessellationRequest& request) {
+  return nodes_of_shape(fields, request).samples;
 }
 
 }  // namespace pelage

@@ -29,7 +29,24 @@ struct TessellationRequest {
 TessellationRequest tessellation_request(const Look& look);
 TessellationRequest tessellation_request(const Look& look, const Paint& paint);
 
+/// Error(Fault::usage) for a request that shapes whose nodes are what they are cannot fulfil.
+void require_own_nodes(const TessellationRequest& request);
+
+// What all tessellations have in common.
+
+/// Without those that are made anew.
+std::vector<Attribute> kept_attributes(std::vector<Attribute> attributes);
+/// How often triangles of this edge are split for smooth colours, or as often as asked. Error(Fault::usage) for a
+/// detail that makes more than 30 million triangles.
+int levels_to_split(double edge, std::size_t triangles, double wavelength, const std::optional<int>& detail);
+/// What formulas of layers read beside positions and fields; `shape` has the attributes of `t`.
+void take_rest(const CoatFields& fields, const TriangleMesh& shape, const TessellationRequest& request,
+               Tessellation& t);
+
 /// Error(Fault::usage) for a detail that needs more than 30 million triangles.
 Tessellation tessellate(const CoatFields& fields, const TessellationRequest& request);
+
+/// The samples of a coat on a shape whose nodes are what they are, one for each of them. The same errors.
+CoatSamples samples_at_nodes(const CoatFields& fields, const TessellationRequest& request);
 
 }  // namespace pelage

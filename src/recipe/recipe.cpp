@@ -121,6 +121,15 @@ Directions read_directions(const Value& table) {
   return d;
 }
 
+std::optional<Given<double>> read_jitter(const Value& table) {
+  const Value* v = table.find("jitter");
+  if (!v) return {};
+  if (!(v->number() >= 0 && v->number() <= 1)) throw Error(Fault::usage, "jitter must be from 0 to 1", v->where());
+  if (!table.find("points"))
+    throw Error(Fault::usage, "jitter moves the points of a grid; give their spacing as points", v->where());
+  return Given<double>{v->number(), v->where()};
+}
+
 Stage read_stage(const Value& table, std::size_t count) {
   Stage s;
   s.name.value = "stage" + std::to_string(count);
@@ -132,6 +141,7 @@ Stage read_stage(const Value& table, std::size_t count) {
   s.unit = optional_length(table, "unit");
   s.size_map = optional_formula(table, "size-map");
   s.points = optional_length(table, "points");
+  s.jitter = read_jitter(table);
   if (const Value* v = table.find("directions")) s.directions = read_directions(*v);
   s.from = optional_text(table, "from");
   s.initial = read_species(table, "initial");
@@ -140,6 +150,7 @@ Stage read_stage(const Value& table, std::size_t count) {
   s.pin = read_species(table, "pin");
   if (const Value* v = table.find("boundary")) s.boundary = read_boundary(*v);
   read_text(table, "method", s.method);
+  if (const Value* v = table.find("cells")) s.cells = Given<std::int64_t>{whole_number(*v, 1), v->where()};
   read_text(table, "stepper", s.stepper);
   s.step = positive(table, "step");
   s.until = positive(table, "until");
@@ -170,6 +181,18 @@ std::vector<Stage> read_stages(const Value& given) {
   for (const Value& table : given.items()) stages.push_back(read_stage(table, stages.size() + 1));
   if (stages.empty()) throw Error(Fault::usage, "a recipe needs at least one stage", given.where());
   return stages;
+}
+
+/// "solid" is a short word for the method that fills the shape.
+void read_solid(const Value& document, std::vector<Stage>& stages) {
+  const Value* solid = document.find("solid");
+  if (!solid || !solid->boolean()) return;
+  for (Stage& s : stages) {
+    if (!s.method.where.file.empty() && s.method.value != "tets")
+      throw Error(Fault::usage, "a solid shape has the method \"tets\"; leave either \"solid\" or \"method\" out",
+                  s.method.where);
+    s.method = {"tets", solid->where()};
+  }
 }
 
 Motion read_motion(const Value& table) {
@@ -248,6 +271,7 @@ Recipe parse_recipe(const std::string& text, const std::string& file) {
   read_text(document, "quality", recipe.quality);
   if (const Value* textures = document.find("texture")) recipe.textures = read_texture_files(*textures);
   recipe.stages = read_stages(document.at("stage"));
+  read_solid(document, recipe.stages);
   if (const Value* motion = document.find("motion")) recipe.motion = read_motion(*motion);
   if (const Value* look = document.find("look")) recipe.look = read_look(*look);
   document.require_all_read();

@@ -39,6 +39,11 @@ const LightSample& LightSamples::operator()(int column, int row, std::uint32_t c
   return samples_[(number * count + k) % samples_.size()];
 }
 
+float LightTracer::closeness(float distance) const {
+  constexpr float least = 1e-6F;  // of the object's size: in a crevice a ray may begin where it ends
+  return pixel_size_ / std::max(distance, least);
+}
+
 /// What sends light to `origin` from `direction`.
 LightTracer::Sender LightTracer::sender_of(const Vector3f& origin, const Vector3f& direction,
                                            const LightSample& sample) const {
@@ -63,7 +68,7 @@ float LightTracer::add_lamp(const SurfacePoint& point, const Vector3f& direction
   light.lamp[Light::open_key] += cosine;
   light.lamp[Light::open_gloss] += gloss;
   const float free = scene_.distance(point.lifted, sample.to_key);
-  light.closeness.lamp = std::max(light.closeness.lamp, pixel_size_ / free);
+  light.closeness.lamp = std::max(light.closeness.lamp, closeness(free));
   if (!std::isinf(free)) return cosine * cosine;
   light.lamp[Light::key] += cosine;
   light.lamp[Light::gloss] += gloss;
@@ -75,7 +80,7 @@ float LightTracer::add_room(const SurfacePoint& point, const LightSample& sample
   Vector3f change = -studio_.open(outward);
   if (outward.dot(point.face_normal) > 0) {
     const auto sender = sender_of(point.lifted, outward, sample);
-    light.closeness.room += pixel_size_ / sender.distance;
+    light.closeness.room += closeness(sender.distance);
     change += sender.radiance;
   }
   return add_change(change, light);
@@ -84,7 +89,7 @@ float LightTracer::add_room(const SurfacePoint& point, const LightSample& sample
 float LightTracer::add_floor_room(const SurfacePoint& point, const LightSample& sample, Light& light) const {
   const Vector3f upward = hemisphere_direction(point.normal, sample.bounce);
   const auto sender = sender_of(point.lifted, upward, sample);
-  light.closeness.room += pixel_size_ / sender.distance;
+  light.closeness.room += closeness(sender.distance);
   const bool open = std::isinf(sender.distance);
   return add_change(open ? Vector3f(0, 0, 0) : Vector3f(sender.radiance - studio_.walls(upward)), light);
 }

@@ -52,6 +52,7 @@ class LightTracer {
     float distance = std::numeric_limits<float>::infinity();
   };
   Sender sender_of(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, const LightSample& sample) const;
+  float closeness(float distance) const;
 
   const RayScene& scene_;
   const Studio& studio_;

@@ -10,6 +10,7 @@
 #include "render/painter.h"
 #include "render/ray_scene.h"
 #include "render/smooth_light.h"
+#include "shape/discs.h"
 
 namespace pelage {
 
@@ -205,6 +206,9 @@ double building_share(std::size_t triangles, const PictureOptions& options) {
   return static_cast<double>(triangles) / (static_cast<double>(triangles) + painting);
 }
 
+/// Of clouds of points their discs are seen.
+TriangleMesh seen(TriangleMesh mesh) { return mesh.triangles.empty() ? discs_of(mesh) : std::move(mesh); }
+
 /// `model` is made if it does not stand as wanted.
 Image picture(const TriangleMesh& mesh, std::optional<StandingMesh>& model, const PictureOptions& options,
               const Progress& progress) {
@@ -223,7 +227,7 @@ Image picture(const TriangleMesh& mesh, std::optional<StandingMesh>& model, cons
 }  // namespace
 
 struct PictureScene::Parts {
-  explicit Parts(TriangleMesh given) : mesh(std::move(given)) {}
+  explicit Parts(TriangleMesh given) : mesh(seen(std::move(given))) {}
   TriangleMesh mesh;
   std::optional<StandingMesh> model;  ///< for the last axis that pointed up
 };
@@ -239,6 +243,7 @@ Image PictureScene::render(const PictureOptions& options, const Progress& progre
 
 Image render(const TriangleMesh& mesh, const PictureOptions& options, const Progress& progress) {
   std::optional<StandingMesh> model;
+  if (mesh.triangles.empty()) return picture(discs_of(mesh), model, options, progress);
   return picture(mesh, model, options, progress);
 }
 

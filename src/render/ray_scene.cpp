@@ -58,7 +58,8 @@ RTCRayHit make_query(const Vector3f& origin, const Vector3f& direction) {
 
 Hit found(const RTCRayHit& query) {
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  return {query.hit.primID, query.hit.u, query.hit.v};
+  const bool known = std::isfinite(query.hit.u) && std::isfinite(query.hit.v);  // not in triangles without an area
+  return {query.hit.primID, known ? query.hit.u : 0, known ? query.hit.v : 0};
 }
 
 /// Mean of a corner attribute.
@@ -177,6 +178,7 @@ Skin RayScene::skin(const Vector3f& direction, const Hit& hit) const {
   Skin skin;
   skin.color = colors_.empty() ? clay : blend(colors_, t, hit);
   skin.face_normal = (points_[t[1]] - points_[t[0]]).cross(points_[t[2]] - points_[t[0]]).normalized();
+  if (!(skin.face_normal.squaredNorm() > 0)) skin.face_normal = -direction;
   if (skin.face_normal.dot(direction) > 0) skin.face_normal = -skin.face_normal;
   skin.normal = skin.face_normal;
   const Vector3f smooth = normals_.empty() ? Vector3f::Zero().eval() : blend(normals_, t, hit);

@@ -71,6 +71,7 @@ void add_stage(Fingerprint& f, const StageProgram& s) {
   add_optional(f, s.step);
   f.add(s.suggested_step).add(std::uint64_t{s.excluded}).add(s.seed);
   add_optional(f, s.points);
+  if (s.jitter) f.add(*s.jitter);
   for (const BorderCondition& c : s.borders) add_border(f, c);
   if (s.directions) add_directions(f, *s.directions);
 }

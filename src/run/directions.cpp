@@ -9,6 +9,7 @@
 #include "base/suggest.h"
 #include "direction/direction_field.h"
 #include "pelage/error.h"
+#include "run/cell_lines.h"
 #include "shape/finding.h"
 #include "shape/normals.h"
 #include "shape/scalar_attributes.h"
@@ -56,7 +57,7 @@ bool wishes(const Point& vector, const Point& normal) {
 }
 
 std::size_t clear_free(std::vector<Point>& vectors, const TriangleMesh& shape) {
-  const std::vector<Point> normals = vertex_normals(shape.triangles, shape.points);
+  const std::vector<Point> normals = vertex_normals(shape);
   std::size_t free = 0;
   for (std::size_t v = 0; v < vectors.size(); ++v) {
     if (wishes(vectors[v], normals[v])) continue;
@@ -207,6 +208,21 @@ std::vector<Tensor> plain_lines_on_sheet(const TriangleMesh& shape, const FieldW
   return lines;
 }
 
+std::vector<Tensor> lines_on_cells(const Cells& cells, const TriangleMesh& shape,
+                                   const std::optional<FieldWish>& wish) {
+  if (wish && !is_plain(*wish))
+    throw Error(Fault::usage,
+                "directions on cells follow an axis, a centre or those that the shape brings along; others need the "
+                "method remeshed");
+  const std::optional<GivenDirections> given = wish ? std::nullopt : given_directions(shape);
+  std::vector<Tensor> lines;
+  for (const Point& d : cell_lines(cells, wish    ? wished_on_cells(cells, *wish)
+                                          : given ? given->vectors
+                                                  : std::vector<Point>{}))
+    lines.push_back(line_tensor(d));
+  return lines;
+}
+
 std::vector<Tensor> grid_lines(const Grid& grid, const TriangleMesh& shape, const std::optional<FieldWish>& wish) {
   if (!wish && component_names(scalar_attributes(shape)).empty()) {
     if (grid.even()) return {line_tensor({1, 0, 0})};
@@ -226,6 +242,7 @@ std::vector<Tensor> grid_lines(const Grid& grid, const TriangleMesh& shape, cons
 std::vector<Tensor> node_lines(const NodeShape& nodes, const TriangleMesh& shape,
                                const std::optional<FieldWish>& wish) {
   if (const Grid* grid = std::get_if<Grid>(&nodes)) return grid_lines(*grid, shape, wish);
+  if (const Cells* cells = std::get_if<Cells>(&nodes)) return lines_on_cells(*cells, shape, wish);
   if (std::holds_alternative<Atlas>(nodes))
     return vertex_lines(shape, wish, make_topology(shape.points.size(), shape.triangles));
   return lines_in_space(shape, wish);

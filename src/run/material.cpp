@@ -27,6 +27,14 @@ VertexAttributes attributes_of_mesh(const Program& program, const std::vector<Sy
   return read;
 }
 
+std::vector<double> distance_to_points(const StageProgram& stage, const Space& space) {
+  const std::vector<Point> nodes = space.geometry(SampleRule::vertices, false).position;
+  const Lattice* lattice = space.lattice();
+  if (stage.jitter && lattice && lattice->count[1] > 1 && lattice->count[2] == 1)
+    return distance_to_jittered_diamonds(nodes, *stage.points, *stage.jitter, stage.seed, stage.period);
+  return distance_to_random_points(nodes, *stage.points, stage.seed, stage.period);
+}
+
 VertexAttributes attributes_at_nodes(const Program& program, const StageProgram& stage, const World& world,
                                      const VertexAttributes& fields) {
   const std::vector<Symbol> symbols = place_symbols(stage.model);
@@ -35,9 +43,7 @@ VertexAttributes attributes_at_nodes(const Program& program, const StageProgram&
   for (const Symbol& s : symbols) {
     if (s.kind != Symbol::Kind::attribute) continue;
     if (const auto field = fields.find(s.name); field != fields.end()) attributes.insert(*field);
-    if (stage.points && s.name == points_attribute)
-      attributes[s.name] = distance_to_random_points(world.space().geometry(SampleRule::vertices, false).position,
-                                                     *stage.points, stage.seed, stage.period);
+    if (stage.points && s.name == points_attribute) attributes[s.name] = distance_to_points(stage, world.space());
   }
   return attributes;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "run/stage_progress.h"
 #include "shape/grid.h"
 
 namespace pelage {
@@ -82,15 +83,18 @@ std::optional<Grid> every_second_node(const Grid& grid) {
   return coarse;
 }
 
-int grow_nested(Run& run) {
+int grow_nested(Run& run, const Progress& progress) {
   const Program& program = run.program();
   const Grid* grid = as<Grid>(program.nodes);
   if (!grid) return 0;
   const std::optional<Grid> coarse = every_second_node(*grid);
   if (!coarse || !resolves(*coarse, program.stages[0].size)) return 0;
   Run first(on(*coarse, program));
-  const int levels = grow_nested(first);
-  while (first.summary().status == RunStatus::running) first.advance(1);
+  const int levels = grow_nested(first, progress);
+  while (first.summary().status == RunStatus::running) {
+    report(progress, "growing on a coarser grid", first.fraction());
+    first.advance(1);
+  }
   if (first.summary().status == RunStatus::failed) return 0;
   std::vector<Vector> fields;
   for (const Vector& u : first.coefficients()) fields.push_back(continued(u, *coarse, *grid));

@@ -16,6 +16,7 @@ std::optional<Grid> every_second_node(const Grid& grid);
 /// Replaces the initial state of the first stage of a run on an even grid, which has made no step, by what has grown on
 /// the grid of every second node to rest or its end, and there likewise; between nodes it is linear. Random fields
 /// belong to places, so that it is the same pattern. Returns the number of coarser grids.
-int grow_nested(Run& run);
+/// Error(Fault::cancelled) where `progress` says so.
+int grow_nested(Run& run, const Progress& progress = {});
 
 }  // namespace pelage

@@ -44,6 +44,7 @@ struct StageProgram {
   std::optional<FieldWish> directions;   ///< of anisotropic diffusion; default: attribute "direction", or the smoothest
   std::string follows;           ///< what its directions follow, for people; empty without anisotropic diffusion
   std::optional<double> points;  ///< spacing of the random points that attribute(points) tells the distance to
+  std::optional<double> jitter;  ///< of these points on flat grids, where they are a grid of diamonds
   double until = 0;              ///< model time
   std::optional<std::int64_t> steps;
   double stationary = 0;  ///< 0: never

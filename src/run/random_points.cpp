@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
 
 #include "base/box.h"
@@ -91,6 +92,35 @@ std::vector<double> distance_to_random_points(const std::vector<Point>& position
   std::vector<double> distance;
   distance.reserve(positions.size());
   for (const Point& p : positions) distance.push_back(chosen.distance(p) / spacing);
+  return distance;
+}
+
+std::vector<double> distance_to_jittered_diamonds(const std::vector<Point>& positions, double spacing, double jitter,
+                                                  std::uint64_t seed, const Point& period) {
+  const Box box = box_of(positions);
+  std::array<double, 2> step;
+  std::array<std::int64_t, 2> count;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double length = period[k] > 0 ? period[k] : box.high[k] - box.low[k];
+    count[k] = std::llround(std::clamp(length / (std::numbers::sqrt2 * spacing), 1.0, 1e6));
+    step[k] = length / static_cast<double>(count[k]);
+  }
+  if (2 * count[0] * count[1] > std::ssize(positions)) return std::vector<double>(positions.size(), 0);  // no gaps
+  constexpr double furthest = 2;  // of a place from the nearest point [spacings]
+  Cubes points(positions, furthest * spacing);
+  for (std::int64_t j = 0; j < 2 * count[1]; ++j)
+    for (std::int64_t i = 0; i < count[0]; ++i) {
+      // Two points in a diamond of the coarser, upright grid: rows are shifted by half a step in turn.
+      const std::uint64_t key = hash(hash(seed, static_cast<std::uint64_t>(j)), static_cast<std::uint64_t>(i));
+      const auto moved = [&](std::uint64_t axis) { return jitter * spacing * (uniform(key, axis) - 0.5); };
+      const double across = static_cast<double>(i) + (j % 2 == 0 ? 0.25 : 0.75);
+      const double up = (static_cast<double>(j) + 0.5) / 2;
+      for_images({box.low[0] + across * step[0] + moved(0), box.low[1] + up * step[1] + moved(1), box.low[2]}, period,
+                 [&](const Point& p) { points.add(p); });
+    }
+  std::vector<double> distance;
+  distance.reserve(positions.size());
+  for (const Point& p : positions) distance.push_back(points.distance(p) / spacing);
   return distance;
 }
 

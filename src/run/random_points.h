@@ -1,5 +1,6 @@
 #pragma once
-// Random points on a surface that keep a distance from each other: where patterns may start.
+// Points that keep a distance from each other, where patterns may start: random ones on a surface, and on flat sheets
+// those of a grid whose order is disturbed.
 
 #include <cstdint>
 #include <vector>
@@ -17,5 +18,12 @@ inline constexpr const char* points_attribute = "points";
 /// space repeats along x, y and z; 0: never.
 std::vector<double> distance_to_random_points(const std::vector<Point>& positions, double spacing, std::uint64_t seed,
                                               const Point& period = {});
+
+/// The same for the points of a square grid that stands on its corner, in the plane of x and y: each has four
+/// neighbours at `spacing`, a little less or more where whole numbers of diamonds have to fit into the box or the
+/// period. Each is moved along x and y by a random number that is even from -`jitter` to `jitter` half spacings. Below
+/// 2 everywhere; 0 where there would be more points than positions.
+std::vector<double> distance_to_jittered_diamonds(const std::vector<Point>& positions, double spacing, double jitter,
+                                                  std::uint64_t seed, const Point& period = {});
 
 }  // namespace pelage

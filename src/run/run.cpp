@@ -419,14 +419,16 @@ CoatFields Run::fields() const {
   f.shape = program_->shape;
   f.nodes = program_->nodes;
   f.period = stage_program().period;
-  f.points = world_.points();
   f.textures = program_->textures;
   f.hierarchy = world_.hierarchy();
   f.method = program_->method;
   f.space = world_.shared_space();
   f.mesh = world_.mesh();
-  f.control = world_.control();
-  f.initial_control = world_.initial_control();
+  if (!as<Grid>(f.nodes)) {
+    f.points = world_.points();
+    f.control = world_.control();
+    f.initial_control = world_.initial_control();
+  }
   f.length_unit = stage_program().length_unit;
   f.origin = stage_program().origin;
   f.seed = stage_program().seed;

@@ -270,18 +270,28 @@ TriangleMesh mesh_of(const Atlas& atlas) {
   TriangleMesh mesh;
   mesh.points.resize(static_cast<std::size_t>(atlas.nodes));
   mesh.metres_per_unit = atlas.metres_per_unit;
-  for (const Atlas::Patch& p : atlas.patches) {
+  for (const Atlas::Patch& p : atlas.patches)
     for (std::size_t v = 0; v < p.node.size(); ++v)
       mesh.points[static_cast<std::size_t>(p.node[v])] = p.grid.point(static_cast<Node>(v));
-    Grid plain = p.grid;
+  for_triangles(atlas, [&](std::size_t patch, Triangle t) {
+    for (Node& v : t) v = atlas.patches[patch].node[static_cast<std::size_t>(v)];
+    mesh.triangles.push_back(t);
+  });
+  return mesh;
+}
+
+void for_triangles(const Atlas& atlas, const std::function<void(std::size_t, const Triangle&)>& use) {
+  for (std::size_t p = 0; p < atlas.patches.size(); ++p) {
+    const Atlas::Patch& patch = atlas.patches[p];
+    Grid plain = patch.grid;
     plain.attributes.clear();
     for (Triangle t : mesh_of(plain).triangles) {
-      for (Node& v : t) v = p.node[static_cast<std::size_t>(v)];
-      if (p.turned) std::swap(t[1], t[2]);
-      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh.triangles.push_back(t);
+      const auto node = [&](std::size_t k) { return patch.node[static_cast<std::size_t>(t[k])]; };
+      if (node(0) == node(1) || node(1) == node(2) || node(2) == node(0)) continue;
+      if (patch.turned) std::swap(t[1], t[2]);
+      use(p, t);
     }
   }
-  return mesh;
 }
 
 std::vector<double> on_patch(const Atlas::Patch& patch, const std::vector<double>& values, std::size_t components) {

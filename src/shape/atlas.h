@@ -1,6 +1,8 @@
 #pragma once
 // Sewing patches together.
 
+#include <functional>
+
 #include "pelage/atlas.h"
 
 namespace pelage {
@@ -13,6 +15,9 @@ Atlas sew(std::vector<Atlas::Patch> patches);
 
 /// Shared nodes as vertices, cells as two triangles each (one where a side has no length); no attributes.
 TriangleMesh mesh_of(const Atlas& atlas);
+
+/// use(patch, triangle) for every triangle of that mesh, in its order, with the numbers of nodes of the patch.
+void for_triangles(const Atlas& atlas, const std::function<void(std::size_t, const Triangle&)>& use);
 
 /// Values of a patch's nodes, from those of the atlas' nodes with so many components each.
 std::vector<double> on_patch(const Atlas::Patch& patch, const std::vector<double>& values, std::size_t components);

@@ -42,6 +42,33 @@ double square_distance(const Point& p, const Point& a, const Point& b, const Poi
       {square_distance_to_segment(p, a, b), square_distance_to_segment(p, b, c), square_distance_to_segment(p, c, a)});
 }
 
+std::array<double, 2> closest_place(const Point& p, const Point& a, const Point& b, const Point& c) {
+  const Point e = difference(b, a), f = difference(c, a), g = difference(p, a);
+  const double ee = dot(e, e), ef = dot(e, f), ff = dot(f, f), ge = dot(g, e), gf = dot(g, f);
+  const double determinant = ee * ff - ef * ef;
+  if (determinant > 0) {
+    const double v = (ff * ge - ef * gf) / determinant, w = (ee * gf - ef * ge) / determinant;
+    if (v >= 0 && w >= 0 && v + w <= 1) return {v, w};
+  }
+  const auto fraction = [](double along, double length2) {
+    return length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
+  };
+  const double third = fraction(gf - ge + ee - ef, ee - 2 * ef + ff);
+  std::array<double, 2> best{};
+  double least = infinity;
+  for (const auto& [v, w] : {std::array{fraction(ge, ee), 0.0}, {0.0, fraction(gf, ff)}, {1 - third, third}}) {
+    const double square = v * v * ee + 2 * v * w * ef + w * w * ff - 2 * (v * ge + w * gf);
+    if (square >= least) continue;
+    least = square;
+    best = {v, w};
+  }
+  return best;
+}
+
+double DistanceTree::Corners::square_distance(const Point& from) const {
+  return pelage::square_distance(from, corner[0], corner[1], corner[2]);
+}
+
 double DistanceTree::Box::square_distance(const Point& from) const {
   double sum = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -53,7 +80,8 @@ double DistanceTree::Box::square_distance(const Point& from) const {
 
 DistanceTree::DistanceTree(const TriangleMesh& mesh) {
   for (const Triangle& t : mesh.triangles)
-    triangles_.push_back({mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]});
+    triangles_.push_back(
+        {{mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]}, static_cast<std::int32_t>(triangles_.size())});
   if (!triangles_.empty()) build(0, triangles_.size());
 }
 
@@ -63,7 +91,7 @@ void DistanceTree::build(std::size_t begin, std::size_t end) {
   nodes_.emplace_back();
   Box box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
   for (std::size_t i = begin; i < end; ++i)
-    for (const Point& p : triangles_[i])
+    for (const Point& p : triangles_[i].corner)
       for (std::size_t k = 0; k < 3; ++k) {
         box.low[k] = std::min(box.low[k], p[k]);
         box.high[k] = std::max(box.high[k], p[k]);
@@ -80,7 +108,7 @@ void DistanceTree::build(std::size_t begin, std::size_t end) {
   const std::size_t half = (begin + end) / 2;
   const auto at = [&](std::size_t i) { return triangles_.begin() + static_cast<std::ptrdiff_t>(i); };
   std::nth_element(at(begin), at(half), at(end),
-                   [axis](const auto& a, const auto& b) { return middle(a)[axis] < middle(b)[axis]; });
+                   [axis](const auto& a, const auto& b) { return middle(a.corner)[axis] < middle(b.corner)[axis]; });
   build(begin, half);
   nodes_[number].right = static_cast<std::int32_t>(nodes_.size());
   build(half, end);
@@ -96,7 +124,7 @@ double DistanceTree::distance(const Point& from) const {
     const Node& node = nodes_[number];
     if (node.box.square_distance(from) >= best) continue;
     for (std::int32_t i = node.first; i < node.first + node.count; ++i)
-      best = std::min(best, square_distance(from, triangles_[i][0], triangles_[i][1], triangles_[i][2]));
+      best = std::min(best, triangles_[i].square_distance(from));
     if (node.count > 0) continue;
     const std::int32_t left = number + 1;
     const bool left_first = nodes_[left].box.square_distance(from) <= nodes_[node.right].box.square_distance(from);
@@ -104,6 +132,24 @@ double DistanceTree::distance(const Point& from) const {
     open.push_back(left_first ? left : node.right);
   }
   return std::sqrt(best);
+}
+
+std::vector<std::int32_t> DistanceTree::within(const Point& from, double radius) const {
+  std::vector<std::int32_t> open, found;
+  if (!nodes_.empty()) open.push_back(0);
+  while (!open.empty()) {
+    const std::int32_t number = open.back();
+    open.pop_back();
+    const Node& node = nodes_[number];
+    if (node.box.square_distance(from) > radius * radius) continue;
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i)
+      if (triangles_[i].square_distance(from) <= radius * radius) found.push_back(triangles_[i].number);
+    if (node.count > 0) continue;
+    open.push_back(number + 1);
+    open.push_back(node.right);
+  }
+  std::ranges::sort(found);
+  return found;
 }
 
 }  // namespace pelage

@@ -14,6 +14,8 @@ class DistanceTree {
 
   /// Distance from a point to the nearest point of any triangle; infinite for a mesh without triangles.
   double distance(const Point& from) const;
+  /// The numbers of all triangles within a radius, in ascending order.
+  std::vector<std::int32_t> within(const Point& from, double radius) const;
 
  private:
   struct Box {
@@ -27,11 +29,19 @@ class DistanceTree {
   };
   void build(std::size_t begin, std::size_t end);
 
-  std::vector<std::array<Point, 3>> triangles_;
+  struct Corners {
+    std::array<Point, 3> corner;
+    std::int32_t number;
+    double square_distance(const Point& from) const;
+  };
+  std::vector<Corners> triangles_;
   std::vector<Node> nodes_;
 };
 
 /// Square of the distance from p to the triangle a b c, degenerate ones included.
 double square_distance(const Point& p, const Point& a, const Point& b, const Point& c);
+
+/// The place (v, w) of the nearest point (1-v-w) a + v b + w c of the triangle.
+std::array<double, 2> closest_place(const Point& p, const Point& a, const Point& b, const Point& c);
 
 }  // namespace pelage

@@ -60,6 +60,7 @@ TriangleMesh mesh_of(const Grid& grid) {
   if (grid.dimension() != 2) return mesh;
   const auto [nx, ny, nz] = grid.count;
   const std::int32_t right = shown_cells(grid, 0), top = shown_cells(grid, 1);
+  mesh.triangles.reserve(2 * static_cast<std::size_t>(right) * static_cast<std::size_t>(top));
   for (std::int32_t j = 0; j < top; ++j)
     for (std::int32_t i = 0; i < right; ++i) {
       const std::int32_t a = grid.node(i, j, 0), b = grid.node((i + 1) % nx, j, 0),

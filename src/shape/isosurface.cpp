@@ -1,14 +1,11 @@
 #include "shape/isosurface.h"
 
 #include <algorithm>
-#include <array>
-#include <cassert>
 #include <cmath>
 #include <unordered_map>
 #include <utility>
 
 #include "base/parallel.h"
-#include "shape/vectors.h"
 
 namespace pelage {
 
@@ -20,12 +17,14 @@ constexpr int tetrahedra[6][4] = {{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 
 
 class MarchingTetrahedra {
  public:
-  using Size = std::array<std::int64_t, 3>;
-  using Place = std::function<Point(std::int64_t node)>;
-
-  /// Values at the nodes, x runs fastest; crossings keep a margin from the nodes, as a part of the way between two.
-  MarchingTetrahedra(const Size& size, std::vector<double> values, Place place, double margin)
-      : size_(size), values_(std::move(values)), place_(std::move(place)), margin_(margin) {}
+  MarchingTetrahedra(const Field& field, const Point& lower, const Point& upper, double spacing)
+      : lower_(lower), spacing_(spacing) {
+    for (int d = 0; d < 3; ++d) size_[d] = 1 + static_cast<std::int64_t>(std::ceil((upper[d] - lower[d]) / spacing));
+    values_.resize(static_cast<std::size_t>(size_[0] * size_[1] * size_[2]));
+    parallel_for(values_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) values_[i] = field(place(static_cast<std::int64_t>(i))).value;
+    });
+  }
 
   TriangleMesh march() {
     for (std::int64_t z = 0; z + 1 < size_[2]; ++z)
@@ -35,14 +34,14 @@ class MarchingTetrahedra {
     return std::move(mesh_);
   }
 
-  /// Where a vertex lies: a part of the way from one node to another.
-  struct Crossing {
-    std::int64_t from, to;
-    double part;
-  };
-  const std::vector<Crossing>& crossings() const { return ways_; }
-
  private:
+  Point place(std::int64_t node) const {
+    const std::int64_t index[3] = {node % size_[0], node / size_[0] % size_[1], node / (size_[0] * size_[1])};
+    Point p;
+    for (int d = 0; d < 3; ++d) p[d] = lower_[d] + spacing_ * static_cast<double>(index[d]);
+    return p;
+  }
+
   std::int64_t node(std::int64_t base, int corner) const {
     return base + (corner & 1) + size_[0] * ((corner >> 1 & 1) + size_[1] * (corner >> 2));
   }
@@ -55,9 +54,8 @@ class MarchingTetrahedra {
     if (is_new) {
       const std::int64_t b = node(base, to);
       const double inside_part = values_[a] / (values_[a] - values_[b]);
-      const double t = std::clamp(inside_part, margin_, 1 - margin_);
-      const Point p = place_(a), q = place_(b);
-      ways_.push_back({a, b, t});
+      const double t = std::clamp(inside_part, 0.1, 0.9);  // away from the nodes: no triangle degenerates
+      const Point p = place(a), q = place(b);
       mesh_.points.push_back({p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), p[2] + t * (q[2] - p[2])});
     }
     return static_cast<std::int32_t>(entry->second);
@@ -96,72 +94,18 @@ class MarchingTetrahedra {
     }
   }
 
-  Size size_;
+  Point lower_;
+  double spacing_;
+  std::int64_t size_[3] = {};
   std::vector<double> values_;
-  Place place_;
-  double margin_;
-  std::vector<Crossing> ways_;
   std::unordered_map<std::int64_t, std::size_t> crossings_;
   TriangleMesh mesh_;
 };
 
-/// The attribute at the vertices.
-Attribute interpolated(const Attribute& a, const std::vector<MarchingTetrahedra::Crossing>& crossings) {
-  const auto n = static_cast<std::size_t>(a.components);
-  Attribute result{a.name, a.components, Domain::vertex, {}, a.type, a.labels};
-  result.values.reserve(n * crossings.size());
-  for (const auto& way : crossings)
-    for (std::size_t k = 0; k < n; ++k) {
-      const double from = a.values[n * static_cast<std::size_t>(way.from) + k];
-      result.values.push_back(from + way.part * (a.values[n * static_cast<std::size_t>(way.to) + k] - from));
-    }
-  widen(result);
-  return result;
-}
-
-/// Whether the first cell turns its axes as a right hand does.
-bool right_handed(const Grid& grid) {
-  const auto edge = [&](std::int32_t node) {
-    const Point p = grid.point(0), q = grid.point(node);
-    return Point{q[0] - p[0], q[1] - p[1], q[2] - p[2]};
-  };
-  return dot(cross(edge(grid.node(1, 0, 0)), edge(grid.node(0, 1, 0))), edge(grid.node(0, 0, 1))) > 0;
-}
-
 }  // namespace
 
 TriangleMesh isosurface(const Field& field, const Point& lower, const Point& upper, double spacing) {
-  MarchingTetrahedra::Size size;
-  for (std::size_t d = 0; d < 3; ++d)
-    size[d] = 1 + static_cast<std::int64_t>(std::ceil((upper[d] - lower[d]) / spacing));
-  const auto place = [&](std::int64_t node) {
-    const std::int64_t index[3] = {node % size[0], node / size[0] % size[1], node / (size[0] * size[1])};
-    Point p;
-    for (std::size_t d = 0; d < 3; ++d) p[d] = lower[d] + spacing * static_cast<double>(index[d]);
-    return p;
-  };
-  std::vector<double> values(static_cast<std::size_t>(size[0] * size[1] * size[2]));
-  parallel_for(values.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) values[i] = field(place(static_cast<std::int64_t>(i))).value;
-  });
-  constexpr double margin = 0.1;  // no triangle degenerates; the surface is found anew afterwards
-  return MarchingTetrahedra(size, std::move(values), place, margin).march();
-}
-
-TriangleMesh isosurface(const Grid& grid, const std::vector<double>& values, double level) {
-  assert(values.size() == grid.nodes());
-  std::vector<double> below(values.size());
-  std::ranges::transform(values, below.begin(), [&](double value) { return level - value; });
-  constexpr double margin = 0.01;  // triangles may be slim, but have an area
-  MarchingTetrahedra marching(
-      {grid.count[0], grid.count[1], grid.count[2]}, std::move(below),
-      [&](std::int64_t node) { return grid.point(static_cast<std::int32_t>(node)); }, margin);
-  TriangleMesh mesh = marching.march();
-  if (grid.dimension() == 3 && !right_handed(grid))
-    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
-  for (const Attribute& a : grid.attributes) mesh.attributes.push_back(interpolated(a, marching.crossings()));
-  mesh.metres_per_unit = grid.metres_per_unit;
-  return mesh;
+  return MarchingTetrahedra(field, lower, upper, spacing).march();
 }
 
 Point project_to_surface(const Field& field, const Point& start, double reach) {

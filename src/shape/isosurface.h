@@ -1,9 +1,9 @@
 #pragma once
-// The surface where a function of space vanishes, or where values on a grid reach a level, as a triangle mesh.
+// The surface where a function of space vanishes, as a triangle mesh.
 
 #include <functional>
 
-#include "pelage/grid.h"
+#include "pelage/triangle_mesh.h"
 
 namespace pelage {
 
@@ -19,11 +19,6 @@ using Field = std::function<FieldValue(const Point&)>;
 /// cuts the surface in one triangle or one quadrilateral. Closed, manifold and oriented outward for any function that
 /// is positive on the border of the box; details below the spacing are lost and angles are poor (see shape/remesh.h).
 TriangleMesh isosurface(const Field& field, const Point& lower, const Point& upper, double spacing);
-
-/// The same between the nodes of a block, where values (one per node) reach a level, facing to where they are lower. It
-/// ends at the border of the block, also along periodic axes, and has the grid's attributes between their nodes; within
-/// a hundredth of a cell of a node the place is that far from it.
-TriangleMesh isosurface(const Grid& grid, const std::vector<double>& values, double level);
 
 /// The place on the surface that Newton's method along the gradient reaches from `start`, in steps of at most `reach`
 /// (a fraction of the thickness of the solid); the distance left is about 1e-14.

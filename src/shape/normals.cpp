@@ -17,4 +17,13 @@ std::vector<Point> vertex_normals(const std::vector<Triangle>& triangles, const 
   return normals;
 }
 
+std::vector<Point> vertex_normals(const TriangleMesh& mesh) {
+  const Attribute* given = mesh.triangles.empty() ? mesh.find("normal") : nullptr;
+  std::vector<Point> normals = vertex_normals(mesh.triangles, mesh.points);
+  if (!given || given->components != 3 || given->domain != Domain::vertex) return normals;
+  for (std::size_t v = 0; v < normals.size(); ++v)
+    normals[v] = unit({given->values[3 * v], given->values[3 * v + 1], given->values[3 * v + 2]});
+  return normals;
+}
+
 }  // namespace pelage

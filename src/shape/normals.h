@@ -10,4 +10,7 @@ namespace pelage {
 /// At every vertex the area-weighted mean of the normals of its triangles, of unit length; 0 where there are none.
 std::vector<Point> vertex_normals(const std::vector<Triangle>& triangles, const std::vector<Point>& points);
 
+/// The same of a mesh; without triangles the attribute "normal", or 0.
+std::vector<Point> vertex_normals(const TriangleMesh& mesh);
+
 }  // namespace pelage

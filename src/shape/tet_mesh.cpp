@@ -7,12 +7,35 @@ namespace pelage {
 
 namespace {
 
-/// The side opposite to each corner, counter-clockwise from outside.
-constexpr std::array<std::array<std::size_t, 3>, 4> sides = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-
+/// The side opposite to a corner of a tetrahedron.
 struct Side {
-  Triangle sorted, turned;
+  Triangle sorted;
+  std::int32_t tet, corner;
 };
+
+Triangle turned(const Tetrahedron& t, std::size_t corner) {
+  const auto& side = tet_sides[corner];
+  return {t[side[0]], t[side[1]], t[side[2]]};
+}
+
+/// Those of one tetrahedron alone, in the order of their nodes.
+std::vector<Side> skin_of(const std::vector<Tetrahedron>& tets) {
+  std::vector<Side> all, skin;
+  all.reserve(4 * tets.size());
+  for (std::size_t t = 0; t < tets.size(); ++t)
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      Triangle sorted = turned(tets[t], corner);
+      std::ranges::sort(sorted);
+      all.push_back({sorted, static_cast<std::int32_t>(t), static_cast<std::int32_t>(corner)});
+    }
+  std::ranges::sort(all, {}, &Side::sorted);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const bool shared =
+        (k > 0 && all[k - 1].sorted == all[k].sorted) || (k + 1 < all.size() && all[k + 1].sorted == all[k].sorted);
+    if (!shared) skin.push_back(all[k]);
+  }
+  return skin;
+}
 
 }  // namespace
 
@@ -43,22 +66,16 @@ double mean_edge(const TetMesh& volume) {
 
 TriangleMesh mesh_of(const TetMesh& volume) {
   TriangleMesh mesh{volume.points, {}, volume.attributes, {}, volume.metres_per_unit};
-  std::vector<Side> all;
-  all.reserve(4 * volume.tets.size());
-  for (const Tetrahedron& t : volume.tets)
-    for (const auto& side : sides) {
-      const Triangle turned = {t[side[0]], t[side[1]], t[side[2]]};
-      Triangle sorted = turned;
-      std::ranges::sort(sorted);
-      all.push_back({sorted, turned});
-    }
-  std::ranges::sort(all, {}, &Side::sorted);
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const bool shared =
-        (k > 0 && all[k - 1].sorted == all[k].sorted) || (k + 1 < all.size() && all[k + 1].sorted == all[k].sorted);
-    if (!shared) mesh.triangles.push_back(all[k].turned);
-  }
+  for (const Side& side : skin_of(volume.tets))
+    mesh.triangles.push_back(
+        turned(volume.tets[static_cast<std::size_t>(side.tet)], static_cast<std::size_t>(side.corner)));
   return mesh;
+}
+
+std::vector<std::uint8_t> skin_sides(const TetMesh& volume) {
+  std::vector<std::uint8_t> sides(volume.tets.size());
+  for (const Side& side : skin_of(volume.tets)) sides[static_cast<std::size_t>(side.tet)] |= 1U << side.corner;
+  return sides;
 }
 
 }  // namespace pelage

@@ -43,11 +43,16 @@ std::array<double, 3> color_at(const Texture& texture, double u, double v) {
 
 VertexAttributes texture_attributes(const Texture& texture, const std::vector<Triangle>& triangles,
                                     std::size_t vertices, const Attribute& uv) {
-  const auto rgb = vertex_means<3>(triangles, vertices, [&](std::size_t corner) {
+  const auto color = [&](std::size_t tuple) {
+    return color_at(texture, uv.values[2 * tuple], uv.values[2 * tuple + 1]);
+  };
+  auto rgb = vertex_means<3>(triangles, vertices, [&](std::size_t corner) {
     const auto v = static_cast<std::size_t>(triangles[corner / 3][corner % 3]);
-    const double* at = uv.values.data() + 2 * (uv.domain == Domain::corner ? corner : v);
-    return color_at(texture, at[0], at[1]);
+    return color(uv.domain == Domain::corner ? corner : v);
   });
+  if (triangles.empty() && uv.domain == Domain::vertex)
+    for (std::size_t v = 0; v < vertices; ++v)
+      for (std::size_t k = 0; k < 3; ++k) rgb[k][v] = color(v)[k];
   const auto names = color_names(texture.name);
   VertexAttributes result;
   for (const std::string& name : names) result[name].resize(vertices);

@@ -27,7 +27,8 @@ struct Texture {
 std::array<double, 3> color_at(const Texture& texture, double u, double v);
 
 /// The values at the vertices: the mean over the corners that meet there, which at a seam lie in several places of the
-/// image. `uv` has two components and sits at vertices or corners; vertices without a triangle get 0.
+/// image. `uv` has two components and sits at vertices or corners; vertices without a
+/// triangle get 0, but where there is none at all the colour at their own uv.
 VertexAttributes texture_attributes(const Texture& texture, const std::vector<Triangle>& triangles,
                                     std::size_t vertices, const Attribute& uv);
 

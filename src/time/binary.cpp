@@ -193,7 +193,9 @@ StepReport Binary::step(const System& system, State& state, const StepRequest& r
   if (!report.failure.empty()) return report;
   if (!convolution_) bind(system, pair);
   next_ = state.now;
-  report.iterations = state.step == 0 ? spread_start(system, pair) : spread_bits(pair);
+  if (state.step == 0) report.iterations = spread_start(system, pair);
+  parts_.clear();
+  if (state.step > 0) report.iterations = spread_bits(pair);
   advance(system, state, request.dt, next_, report);
   return report;
 }

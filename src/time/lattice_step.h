@@ -22,6 +22,8 @@ class LinearParts {
   void split(const System& system, const std::vector<Vector>& now, double t);
   /// N of a later stage with the c found last.
   void evaluate(const System& system, const std::vector<Vector>& stage, double t);
+  /// Gives the memory of all back.
+  void clear() { *this = {}; }
   double c(std::size_t species) const { return c_[species]; }
   const Vector& rest(std::size_t species) const { return rest_[species]; }
 

@@ -157,96 +157,143 @@ PELAGE_TARGET void multiply(const SlicedMatrix& matrix, const float* values, con
     multiply_from<twin>(matrix, matrix.column.data(), 0, values, x, base, scale, first, last, out);
 }
 
-/// The number of a neighbour along an axis of n nodes: around the end, or as in a mirror on the last node.
-PELAGE_TARGET inline std::size_t neighbour(std::size_t i, int step, std::size_t n, bool periodic) {
-  if (step < 0 && i == 0) return periodic ? n - 1 : std::min<std::size_t>(1, n - 1);
-  if (step > 0 && i + 1 == n) return periodic ? 0 : (n > 1 ? n - 2 : 0);
-  return i + static_cast<std::size_t>(step);
-}
-
-using StencilWeights = float (PairedStencil::Row::*)[3][2];
-
-/// The node x of a row whose neighbours' rows begin at `from`.
-PELAGE_TARGET inline void stencil_node(const PairedStencil& s, StencilWeights weights, const float* const* from,
-                                       const float* own, const float* base, const float* scale, std::size_t x,
-                                       float* out) {
-  const std::size_t column[3] = {neighbour(x, -1, s.count[0], s.periodic[0]), x,
-                                 neighbour(x, 1, s.count[0], s.periodic[0])};
-  for (std::size_t lane = 0; lane < 2; ++lane) {
-    float sum = 0;
-    for (std::size_t r = 0; r < s.rows.size(); ++r)
-      for (std::size_t t = 0; t < 3; ++t)
-        sum += (s.rows[r].*weights)[t][lane] * (from[r][2 * column[t] + lane] - own[2 * x + lane]);
-    out[lane] = base ? base[lane] + scale[lane] * sum : scale[lane] * sum;
+/// The number of node i along an axis of n nodes: around the ends, or as in mirrors on the first and the last node.
+PELAGE_TARGET inline std::size_t node_within(std::ptrdiff_t i, std::size_t n, bool periodic) {
+  const auto end = static_cast<std::ptrdiff_t>(n);
+  if (end == 1) return 0;
+  while (i < 0 || i >= end) {
+    if (periodic)
+      i += i < 0 ? end : -end;
+    else
+      i = i < 0 ? -i : 2 * (end - 1) - i;
   }
+  return static_cast<std::size_t>(i);
 }
 
-/// Nodes [begin, end) of the row of the grid to which `own` points.
-PELAGE_TARGET inline void stencil_row(const PairedStencil& s, StencilWeights weights, const float* const* from,
-                                      const float* own, const float* base, const float* scale, std::size_t begin,
-                                      std::size_t end, float* out) {
-  const std::size_t nx = s.count[0], rows = s.rows.size();
-  std::size_t x = begin;
-  const auto single = [&] {
-    stencil_node(s, weights, from, own, base ? base + 2 * (x - begin) : nullptr, scale, x, out + 2 * (x - begin));
-    ++x;
-  };
-  if (x == 0 && x < end) single();
-  Full factor;
-  for (std::size_t k = 0; k < lanes; ++k) factor[k] = scale[k % 2];
-  for (const std::size_t inner = std::min(end, nx - 1); x + lanes / 2 <= inner; x += lanes / 2) {
-    Full sum{}, mine;
-    load(own + 2 * x, mine);
-    for (std::size_t r = 0; r < rows; ++r)
-      for (std::size_t t = 0; t < 3; ++t) {
-        const float* const w = (s.rows[r].*weights)[t];
-        Full weight, other;
-        for (std::size_t k = 0; k < lanes; ++k) weight[k] = w[k % 2];
-        load(from[r] + 2 * (x + t) - 2, other);
-        sum += weight * (other - mine);
-      }
-    Full result = factor * sum;
-    if (base) {
-      Full b;
-      load(base + 2 * (x - begin), b);
-      result = b + result;
+/// The two neighbours of a node, and their weight.
+struct OppositeRows {
+  const float *after, *before;
+  Full weight;
+};
+
+/// `width` registers of nodes; `shift`: of what the neighbours are counted from.
+template <std::size_t width>
+PELAGE_TARGET inline void stencil_nodes(const OppositeRows* neighbours, std::size_t count, std::size_t shift,
+                                        const float* own, const Full& scale, float* out) {
+  Full twice[width], sum[width];
+#pragma GCC unroll 4
+  for (std::size_t p = 0; p < width; ++p) {
+    load(own + p * lanes, twice[p]);
+    twice[p] += twice[p];
+    sum[p] = Full{};
+  }
+  for (std::size_t n = 0; n < count; ++n) {
+    const float *after = neighbours[n].after + shift, *before = neighbours[n].before + shift;
+#pragma GCC unroll 4
+    for (std::size_t p = 0; p < width; ++p) {
+      Full a, b;
+      load(after + p * lanes, a);
+      load(before + p * lanes, b);
+      sum[p] += neighbours[n].weight * ((a + b) - twice[p]);
     }
-    store(result, out + 2 * (x - begin));
   }
-  while (x < end) single();
+#pragma GCC unroll 4
+  for (std::size_t p = 0; p < width; ++p) store(scale * sum[p], out + p * lanes);
 }
 
-PELAGE_TARGET void multiply_stencil(const SlicedMatrix& matrix, StencilWeights weights, const float* x,
-                                    const float* base, const float* scale, std::size_t first, std::size_t last,
-                                    float* out) {
+constexpr std::size_t register_nodes = lanes / 2;
+/// Two lines along each axis and four along the diagonals between two, of two steps each.
+constexpr std::size_t most_neighbours = 18;
+
+/// At most a register of nodes from x on, in a row's end: their neighbours are put together first.
+PELAGE_TARGET inline void stencil_end(const PairedStencil& s, const OppositeRows* rows, const float* own,
+                                      const Full& scale, std::size_t x, std::size_t nodes, float* out) {
+  constexpr std::size_t reach = 2;
+  const std::size_t count = s.neighbours.size();
+  std::size_t column[register_nodes + 2 * reach];  // from x - reach on; behind the last node anything
+  for (std::size_t k = 0; k < register_nodes + 2 * reach; ++k)
+    column[k] = 2 * node_within(static_cast<std::ptrdiff_t>(x + k) - static_cast<std::ptrdiff_t>(reach), s.count[0],
+                                s.periodic[0]);
+  OppositeRows near[most_neighbours];
+  float values[most_neighbours][2][lanes], mine[lanes], result[lanes];
+  for (std::size_t k = 0; k < register_nodes; ++k) std::memcpy(mine + 2 * k, own + column[k + reach], sizeof(double));
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t* const after = column + reach + s.neighbours[n].step[0];
+    const std::size_t* const before = column + reach - s.neighbours[n].step[0];
+    for (std::size_t k = 0; k < register_nodes; ++k) {
+      std::memcpy(values[n][0] + 2 * k, rows[n].after + after[k], sizeof(double));
+      std::memcpy(values[n][1] + 2 * k, rows[n].before + before[k], sizeof(double));
+    }
+    near[n] = {values[n][0], values[n][1], rows[n].weight};
+  }
+  stencil_nodes<1>(near, count, 0, mine, scale, result);
+  std::memcpy(out, result, 2 * nodes * sizeof(float));
+}
+
+/// Nodes [x, end) of the row of the grid to which `own` points; `rows`: those of their neighbours.
+PELAGE_TARGET inline void stencil_row(const PairedStencil& s, const OppositeRows* rows, const float* own,
+                                      const Full& scale, std::size_t x, std::size_t end, float* out) {
+  constexpr std::size_t reach = 2, wide = 4 * register_nodes;
+  const std::size_t count = s.neighbours.size(), begin = x;
+  OppositeRows near[most_neighbours];  // of the node 0
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::ptrdiff_t step = 2 * s.neighbours[n].step[0];
+    near[n] = {rows[n].after + step, rows[n].before - step, rows[n].weight};
+  }
+  while (x < end) {
+    float* const to = out + 2 * (x - begin);
+    const std::size_t left = x < reach || x + reach >= s.count[0] ? 0 : std::min(end, s.count[0] - reach) - x;
+    if (left >= wide) {
+      stencil_nodes<4>(near, count, 2 * x, own + 2 * x, scale, to);
+      x += wide;
+    } else if (left >= register_nodes) {
+      stencil_nodes<1>(near, count, 2 * x, own + 2 * x, scale, to);
+      x += register_nodes;
+    } else {
+      const std::size_t nodes = std::min(end - x, register_nodes);
+      stencil_end(s, rows, own, scale, x, nodes, to);
+      x += nodes;
+    }
+  }
+}
+
+PELAGE_TARGET void multiply_stencil(const SlicedMatrix& matrix, const float* x, const float* scale, std::size_t first,
+                                    std::size_t last, float* out) {
   const PairedStencil& s = *matrix.stencil;
   const std::size_t nx = s.count[0], ny = s.count[1], nz = s.count[2];
   const std::size_t begin = first * slice_rows, stop = last * slice_rows, end = std::min(stop, matrix.rows);
+  OppositeRows rows[most_neighbours];
+  Full factor;
+  for (std::size_t k = 0; k < lanes; ++k) factor[k] = scale[k % 2];
+  for (std::size_t n = 0; n < s.neighbours.size(); ++n)
+    for (std::size_t k = 0; k < lanes; ++k) rows[n].weight[k] = s.neighbours[n].weight[k % 2];
   for (std::size_t node = begin; node < end;) {
     const std::size_t row = node / nx, column = node % nx, count = std::min(nx - column, end - node);
-    const float* from[9];
-    for (std::size_t r = 0; r < s.rows.size(); ++r)
-      from[r] = x + 2 * nx *
-                        (neighbour(row % ny, s.rows[r].j, ny, s.periodic[1]) +
-                         ny * neighbour(row / ny, s.rows[r].k, nz, s.periodic[2]));
-    stencil_row(s, weights, from, x + 2 * nx * row, base ? base + 2 * (node - begin) : nullptr, scale, column,
-                column + count, out + 2 * (node - begin));
+    const auto row_at = [&](std::ptrdiff_t j, std::ptrdiff_t k) {
+      return x + 2 * nx *
+                     (node_within(static_cast<std::ptrdiff_t>(row % ny) + j, ny, s.periodic[1]) +
+                      ny * node_within(static_cast<std::ptrdiff_t>(row / ny) + k, nz, s.periodic[2]));
+    };
+    for (std::size_t n = 0; n < s.neighbours.size(); ++n) {
+      const std::array<int, 3>& step = s.neighbours[n].step;
+      rows[n].after = row_at(step[1], step[2]);
+      rows[n].before = row_at(-step[1], -step[2]);
+    }
+    stencil_row(s, rows, x + 2 * nx * row, factor, column, column + count, out + 2 * (node - begin));
     node += count;
   }
   for (std::size_t k = 2 * (std::max(begin, end) - begin); k < 2 * (stop - begin); ++k) out[k] = 0;
 }
 
-PELAGE_TARGET void diffuse(const SlicedMatrix& matrix, const float* x, const float* base, const float* scale,
-                           std::size_t first, std::size_t last, float* out) {
-  if (matrix.stencil) return multiply_stencil(matrix, &PairedStencil::Row::diffusion, x, base, scale, first, last, out);
+PELAGE_TARGET void diffuse(const SlicedMatrix& matrix, const float* x, const float* scale, std::size_t first,
+                           std::size_t last, float* out) {
+  if (matrix.stencil) return multiply_stencil(matrix, x, scale, first, last, out);
   const auto times = matrix.twin ? multiply<true> : multiply<false>;
-  times(matrix, matrix.diffusion.data(), x, base, scale, first, last, out);
+  times(matrix, matrix.diffusion.data(), x, nullptr, scale, first, last, out);
 }
 
 PELAGE_TARGET void correct(const SlicedMatrix& matrix, const float* x, const float* base, const float* scale,
                            std::size_t first, std::size_t last, float* out) {
-  if (matrix.stencil)
-    return multiply_stencil(matrix, &PairedStencil::Row::correction, x, base, scale, first, last, out);
   multiply<false>(matrix, matrix.correction.data(), x, base, scale, first, last, out);
 }
 
@@ -283,6 +330,25 @@ PELAGE_TARGET void stage(const StageTerms& terms, const float* __restrict y0, co
       next = next > up ? up : next;
       store(next, d + at);
     }
+  }
+}
+
+PELAGE_TARGET void first_stage(const StageTerms& terms, const float* __restrict y0, const float* __restrict f0,
+                               std::size_t count, float* __restrict d) {
+  Full lower, upper;
+  for (std::size_t p = 0; p < lanes; ++p) {
+    lower[p] = terms.lower[p % 2];
+    upper[p] = terms.upper[p % 2];
+  }
+  for (std::size_t k = 0; k < 2 * padded(count); k += lanes) {
+    Full from, next;
+    load(y0 + k, from);
+    load(f0 + k, next);
+    next = terms.rate * next;
+    const Full down = lower - from, up = upper - from;
+    next = next < down ? down : next;
+    next = next > up ? up : next;
+    store(next, d + k);
   }
 }
 
@@ -335,6 +401,7 @@ struct SpeciesParts {
   Wide low, high, largest, deviation, squared, change;
 };
 
+template <bool clamped>
 PELAGE_TARGET inline void finish_some(const SpeciesLimits& l, const double* before, const float* d, const Wide& weight,
                                       double* after, float* y, SpeciesParts& s) {
   Wide old, value;
@@ -343,17 +410,19 @@ PELAGE_TARGET inline void finish_some(const SpeciesLimits& l, const double* befo
   value = old + value;
   const Wide modulus = value < 0.0 ? -value : value;
   s.largest = modulus > s.largest ? modulus : s.largest;
-  const Wide lower = Wide{} + l.lower, upper = Wide{} + l.upper;
-  value = value < lower ? lower : value;
-  value = value > upper ? upper : value;
-  // Where the step ends at a clamp, the sum may miss it by its rounding.
-  float y0[wide];
-  Wide from, step;
-  narrow_to(old, y0);
-  widen(y0, from);
-  widen(d, step);
-  value = step <= lower - from + l.slack ? lower : value;
-  value = step >= upper - from - l.slack ? upper : value;
+  if constexpr (clamped) {
+    const Wide lower = Wide{} + l.lower, upper = Wide{} + l.upper;
+    value = value < lower ? lower : value;
+    value = value > upper ? upper : value;
+    // Where the step ends at a clamp, the sum may miss it by its rounding.
+    float y0[wide];
+    Wide from, step;
+    narrow_to(old, y0);
+    widen(y0, from);
+    widen(d, step);
+    value = step <= lower - from + l.slack ? lower : value;
+    value = step >= upper - from - l.slack ? upper : value;
+  }
   value = modulus < l.smallest ? Wide{} : value;
   store(value, after);
   narrow_to(value, y);
@@ -365,8 +434,9 @@ PELAGE_TARGET inline void finish_some(const SpeciesLimits& l, const double* befo
   s.squared += weight * (away * away);
 }
 
-PELAGE_TARGET void finish(const SpeciesLimits& limits, const double* before, const float* d, std::size_t count,
-                          double* after, float* y, SpeciesSums& sums) {
+template <bool clamped>
+PELAGE_TARGET void finish_all(const SpeciesLimits& limits, const double* before, const float* d, std::size_t count,
+                              double* after, float* y, SpeciesSums& sums) {
   const SpeciesLimits l = limits;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr std::size_t registers = sum_parts / wide;
@@ -380,7 +450,7 @@ PELAGE_TARGET void finish(const SpeciesLimits& limits, const double* before, con
   for (; k + sum_parts <= count; k += sum_parts)
     for (std::size_t r = 0; r < registers; ++r) {
       const std::size_t at = k + r * wide;
-      finish_some(l, before + at, d + at, Wide{} + 1.0, after + at, y + at, part[r]);
+      finish_some<clamped>(l, before + at, d + at, Wide{} + 1.0, after + at, y + at, part[r]);
     }
   if (k < count) {
     // The rest is filled up with one of its nodes, of weight 0.
@@ -396,7 +466,7 @@ PELAGE_TARGET void finish(const SpeciesLimits& limits, const double* before, con
       const std::size_t at = r * wide;
       Wide w;
       load(weight + at, w);
-      finish_some(l, old + at, step + at, w, value + at, single + at, part[r]);
+      finish_some<clamped>(l, old + at, step + at, w, value + at, single + at, part[r]);
     }
     for (std::size_t p = 0; k + p < count; ++p) {
       after[k + p] = value[p];
@@ -408,6 +478,13 @@ PELAGE_TARGET void finish(const SpeciesLimits& limits, const double* before, con
     const std::size_t lane = p % wide;
     sums += SpeciesSums{r.low[lane], r.high[lane], r.largest[lane], r.deviation[lane], r.squared[lane], r.change[lane]};
   }
+}
+
+PELAGE_TARGET void finish(const SpeciesLimits& limits, const double* before, const float* d, std::size_t count,
+                          double* after, float* y, SpeciesSums& sums) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const bool clamped = limits.lower > -infinity || limits.upper < infinity;
+  (clamped ? finish_all<true> : finish_all<false>)(limits, before, d, count, after, y, sums);
 }
 
 /// Padding has neither error nor value.
@@ -443,4 +520,4 @@ PELAGE_TARGET void error(const ErrorTerms& terms, const float* y0, const float* 
   }
 }
 
-constexpr NodeLoops loops = {diffuse, correct, separate, stage, join, finish, error, add_rates};
+constexpr NodeLoops loops = {diffuse, correct, separate, first_stage, stage, join, finish, error, add_rates};

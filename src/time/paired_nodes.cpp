@@ -57,7 +57,7 @@ const NodeLoops& node_loops(InstructionSet set) {
 }
 
 SlicedMatrix slice(std::span<const SharedMatrix> stiffness, const SparseMatrix& mass, const Vector& lumped, double area,
-                   const std::vector<char>* held) {
+                   const std::vector<char>* held, const std::vector<char>* given) {
   const SparsePattern& pattern = *stiffness[0]->pattern;
   const std::size_t count = stiffness.size();
   SlicedMatrix m;
@@ -90,7 +90,8 @@ SlicedMatrix slice(std::span<const SharedMatrix> stiffness, const SparseMatrix& 
                 m.column[at] = pattern.column[e];
                 for (std::size_t lane = 0; lane < count; ++lane)
                   m.diffusion[count * at + lane] = static_cast<float>(area * scale * stiffness[lane]->value[e]);
-                if (corrected) m.correction[at] = static_cast<float>(scale * mass.value[e]);
+                const bool linked = !(given && (*given)[static_cast<std::size_t>(pattern.column[e])]);
+                if (corrected) m.correction[at] = linked ? static_cast<float>(scale * mass.value[e]) : 0.0f;
                 at += slice_rows;
               }
             for (; at < slice_rows * m.start[s + 1] + k; at += slice_rows)

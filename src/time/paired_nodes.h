@@ -46,13 +46,12 @@ inline std::size_t padded(std::size_t nodes) { return (nodes + node_step - 1) / 
 struct PairedStencil {
   std::array<std::size_t, 3> count{};
   std::array<bool, 3> periodic{};
-  /// The neighbours in one row of the grid.
-  struct Row {
-    int j = 0, k = 0;            ///< steps to it along the second and the third axis
-    float diffusion[3][2] = {};  ///< [step along the first axis + 1][species]
-    float correction[3][2] = {};
+  /// Two nodes in opposite directions, at most two steps away.
+  struct Opposite {
+    std::array<int, 3> step;
+    std::array<float, 2> weight;  ///< of either species
   };
-  std::vector<Row> rows;
+  std::vector<Opposite> neighbours;
 };
 
 /// Two matrices of one pattern whose rows sum to zero, so that only the entries beside the diagonal are kept and
@@ -71,13 +70,14 @@ struct SlicedMatrix {
   AlignedVector<float> correction;       ///< E = I - L^-1 M; empty where M is diagonal
   std::optional<PairedStencil> stencil;  ///< instead of start, columns and values
 
-  bool corrects() const { return stencil || !correction.empty(); }
+  bool corrects() const { return !correction.empty(); }
   std::size_t slices() const { return stencil ? padded(rows) / slice_rows : start.size() - 1; }
 };
 
-/// `stiffness`: one K, or two. `lumped`: L. `area`: a. Rows of held nodes are zero. Of one size and pattern all.
+/// `stiffness`: one K, or two. `lumped`: L. `area`: a. Rows of held nodes are zero, and E links none to those that are
+/// `given`, whose rate is not that of an equation; either may be null. Of one size and pattern all.
 SlicedMatrix slice(std::span<const SharedMatrix> stiffness, const SparseMatrix& mass, const Vector& lumped, double area,
-                   const std::vector<char>* held);
+                   const std::vector<char>* held, const std::vector<char>* given);
 
 /// What makes a stage out of the ones before, for differences from the start of the step:
 ///   d_j = mu d_(j-1) + nu d_(j-2) + rate (g_0 + q + r) + first f_0
@@ -110,14 +110,16 @@ struct ErrorTerms {
 };
 
 struct NodeLoops {
-  /// out = base + scale (A x) for the rows of slices [first, last); A: the diffusion or the correction; `base` may be
-  /// null; `scale`: of either species. `base` and `out` point at slice `first`.
-  void (*diffuse)(const SlicedMatrix& matrix, const float* x, const float* base, const float* scale, std::size_t first,
-                  std::size_t last, float* out);
+  /// out = scale (A x), or base + scale (A x), for the rows of slices [first, last); A: the diffusion, or the
+  /// correction of a matrix that is no stencil; `scale`: of either species. `base` and `out` point at slice `first`.
+  void (*diffuse)(const SlicedMatrix& matrix, const float* x, const float* scale, std::size_t first, std::size_t last,
+                  float* out);
   void (*correct)(const SlicedMatrix& matrix, const float* x, const float* base, const float* scale, std::size_t first,
                   std::size_t last, float* out);
   /// u, v = a + b; `b` may be null.
   void (*separate)(const float* a, const float* b, std::size_t count, float* u, float* v);
+  /// d = rate f_0, likewise.
+  void (*first_stage)(const StageTerms& terms, const float* y0, const float* f0, std::size_t count, float* d);
   /// d holds d_(j-2) and becomes d_j; r in two fields.
   void (*stage)(const StageTerms& terms, const float* y0, const float* before, const float* g0, const float* q,
                 const float* f0, const float* r0, const float* r1, std::size_t count, float* d);

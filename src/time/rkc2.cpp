@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <cstring>
 
 #include "base/dense.h"
 #include "base/parallel.h"
@@ -49,16 +51,15 @@ std::size_t slices_below(std::size_t nodes) { return padded(nodes) / slice_rows;
 /// A function of time at all nodes: one field per pair.
 using Fields = std::vector<PairField>;
 
-/// Per species: sums of the squares of error and value; then the largest entries of the Jacobian.
+/// Per species: sums of the squares of error and value.
 struct RateSums {
-  std::vector<double> error, size, jacobian;
-  explicit RateSums(std::size_t species = 0) : error(species), size(species), jacobian(species * species) {}
+  std::vector<double> error, size;
+  explicit RateSums(std::size_t species = 0) : error(species), size(species) {}
   RateSums& operator+=(const RateSums& o) {
     for (std::size_t i = 0; i < error.size(); ++i) {
       error[i] += o.error[i];
       size[i] += o.size[i];
     }
-    for (std::size_t k = 0; k < jacobian.size(); ++k) jacobian[k] = std::max(jacobian[k], o.jacobian[k]);
     return *this;
   }
 };
@@ -115,11 +116,15 @@ class Rkc2 final : public Stepper {
  private:
   void bind(const System& system);
   void find_gradients(const System& system, const Fields& y, const Fields* d, double t);
+  bool take_over(const State& state, std::size_t first, std::size_t count, BlockWork& work);
   void start_from(const System& system, const State& state);
   bool substep(const System& system, const std::vector<Vector>& now, double t, double dt, const StepRequest& request,
                StepReport& report);
-  void first_stage(const std::vector<StageTerms>& terms, float rate);
-  void take_stages(const System& system, double t, double dt, int s);
+  void first_stage(const std::vector<StageTerms>& terms);
+  template <class Set>
+  void for_given(const System& system, double t, const Set& set) const;
+  void give_values(const System& system, double t, const std::vector<Vector>& now);
+  void take_stages(const System& system, const std::vector<Vector>& now, double t, double dt, int s);
   void finish(const System& system, const std::vector<Vector>& now, double dt, StepReport& report);
   RateSums evaluate(const System& system, const Fields& y, double t, const Fields* d, double dt);
   void report_sums(const std::vector<Vector>& now, const std::vector<SpeciesSums>& sums, double dt, StepReport& report);
@@ -129,16 +134,17 @@ class Rkc2 final : public Stepper {
                  std::size_t count, RateSums& sums) const;
   std::vector<float> derivatives(const FloatRates& jacobian, std::size_t first, std::size_t count,
                                  BlockWork& work) const;
-  void probe(const System& system, const FloatRates& rates, const FloatRates& jacobian, std::size_t first,
-             std::size_t count, BlockWork& work, RateSums& sums) const;
+  bool may_be_largest(const std::vector<float>& slopes, std::size_t species, std::size_t count);
+  void probe(const FloatRates& rates, const FloatRates& jacobian, std::size_t first, std::size_t count,
+             BlockWork& work);
   double error_of(const RateSums& sums) const;
   double stiffness() const;
 
   int before_last(const Fields& x);
   void last_product(std::size_t pair, const Fields& x, std::size_t first, std::size_t last, float* out) const;
   FloatRates rates_at(const System& system, double t);
-  void rates_of_block(const System& system, const FloatRates& rates, std::size_t first, std::size_t count,
-                      BlockWork& work, std::span<float* const> rate) const;
+  void rates_of_block(const FloatRates& rates, std::size_t first, std::size_t count, BlockWork& work,
+                      std::span<float* const> rate) const;
 
   const NodeLoops* loops_;
   std::size_t nodes_ = 0, species_ = 0;
@@ -147,8 +153,10 @@ class Rkc2 final : public Stepper {
   std::shared_ptr<const Sampling> sampling_;
   bool nodal_ = false;
   std::size_t probed_ = probed_share;  ///< nodes of a block
+  float trust_ = 1;                    ///< share of a derivative above which a difference quotient confirms it
   Fields y_, f_, g_, y_next_, f_next_, g_next_, d_, d_before_, product_, swept_;
   std::vector<double> jacobian_, gradient_jacobian_;  ///< of the reaction; of the gradients on the shortest waves
+  std::vector<float> largest_;                        ///< entries of the Jacobian as they are found
   std::vector<float> probe_, probe_next_;             ///< by how much species are changed to see the Jacobian
   bool known_ = false;                                ///< f_ belongs to y_ at the time known_time_
   double known_time_ = 0;
@@ -158,41 +166,58 @@ class Rkc2 final : public Stepper {
 void Rkc2::bind(const System& system) {
   const auto nodes = static_cast<std::size_t>(system.sampling->count());
   probed_ = system.mass ? probed_share : block_nodes;
+  trust_ = system.mass ? 1 : 0.9f;
   if (!pairs_.update(system) && nodes == nodes_) return;
   known_ = false;
   nodes_ = nodes;
   species_ = system.species.size();
-  for (Fields* fields : {&y_, &f_, &g_, &y_next_, &f_next_, &g_next_, &d_, &d_before_, &product_, &swept_}) {
+  for (Fields* fields : {&y_, &f_, &g_, &y_next_, &f_next_, &g_next_, &d_, &d_before_}) {
     fields->resize(pairs_.size());
     for (PairField& f : *fields) f.assign(2 * padded(nodes_), 0.0f);
   }
+  for (Fields* fields : {&product_, &swept_}) {
+    fields->assign(pairs_.size(), {});
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      if (pairs_.sweeps(p) > 0) (*fields)[p].assign(2 * padded(nodes_), 0.0f);
+  }
+}
+
+/// Whether y_ was something else at these nodes.
+bool Rkc2::take_over(const State& state, std::size_t first, std::size_t count, BlockWork& work) {
+  bool changed = false;
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    for (float* u : {work.u()[2 * p], work.u()[2 * p + 1]}) std::fill_n(u, block_nodes, 0.0f);
+    for (std::size_t k = 0; k < pairs_[p].count; ++k) {
+      const double* now = state.now[pairs_[p].species[k]].data() + first;
+      std::transform(now, now + count, work.u()[2 * p + k], [](double value) { return static_cast<float>(value); });
+    }
+    float* const y = y_[p].data() + 2 * first;
+    loops_->join(work.u()[2 * p], work.u()[2 * p + 1], count, work.product(p));
+    if (std::memcmp(y, work.product(p), 2 * count * sizeof(float)) == 0) continue;
+    std::copy_n(work.product(p), 2 * count, y);
+    changed = true;
+  }
+  return changed;
 }
 
 /// Takes the state over and finds f there, unless it is known from the step before.
 void Rkc2::start_from(const System& system, const State& state) {
   std::vector<char> differs(chunk_count(nodes_, piece_nodes));
-  for (const std::size_t i : pairs_.evolving()) {
-    const double* now = state.now[i].data();
-    float* y = y_[pairs_.place(i) / 2].data() + pairs_.place(i) % 2;
-    parallel_for(
-        nodes_,
-        [&](std::size_t begin, std::size_t end) {
-          bool changed = false;
-          for (std::size_t k = begin; k < end; ++k) {
-            const auto value = static_cast<float>(now[k]);
-            changed |= !(y[2 * k] == value);
-            y[2 * k] = value;
-          }
-          if (changed) differs[begin / piece_nodes] = 1;
-        },
-        piece_nodes);
-  }
+  parallel_for(
+      nodes_,
+      [&](std::size_t begin, std::size_t end) {
+        BlockWork work(pairs_.size(), species_, gradients_.products());
+        for (std::size_t first = begin; first < end; first += block_nodes)
+          if (take_over(state, first, std::min(block_nodes, end - first), work)) differs[begin / piece_nodes] = 1;
+      },
+      piece_nodes);
   if (known_ && known_time_ == state.time && std::ranges::find(differs, 1) == differs.end()) return;
   probe_.assign(species_, 0);
   for (std::size_t i = 0; i < species_; ++i)
     probe_[i] = static_cast<float>(std::max(std::abs(minimum(state.now[i])), std::abs(maximum(state.now[i]))));
   probe_next_ = probe_;
-  jacobian_ = evaluate(system, y_, state.time, nullptr, 0).jacobian;
+  evaluate(system, y_, state.time, nullptr, 0);
+  jacobian_.assign(largest_.begin(), largest_.end());
   gradient_jacobian_ = gradients_.jacobian(system, state.time);
   std::swap(f_, f_next_);
   std::swap(g_, g_next_);
@@ -234,8 +259,8 @@ FloatRates Rkc2::rates_at(const System& system, double t) {
 }
 
 /// `rate`: two per pair; 0 where nodes are held and where a pair has but one species.
-void Rkc2::rates_of_block(const System& system, const FloatRates& rates, std::size_t first, std::size_t count,
-                          BlockWork& work, std::span<float* const> rate) const {
+void Rkc2::rates_of_block(const FloatRates& rates, std::size_t first, std::size_t count, BlockWork& work,
+                          std::span<float* const> rate) const {
   std::ranges::fill(work.in(), work.unused());  // rates read no species that follows
   std::ranges::fill(work.out(), work.unused());
   for (const std::size_t i : pairs_.evolving()) {
@@ -250,10 +275,10 @@ void Rkc2::rates_of_block(const System& system, const FloatRates& rates, std::si
   for (float* r : rate) std::fill(r + count, r + padded(count), 0.0f);
   for (std::size_t p = 0; p < pairs_.size(); ++p)
     if (pairs_[p].count < 2) std::fill_n(rate[2 * p + 1], count, 0.0f);
-  if (!system.held) return;
-  for (std::size_t k = 0; k < count; ++k)
-    if ((*system.held)[first + k])
-      for (float* r : rate) r[k] = 0;
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    if (const Held* held = pairs_[p].held.get())
+      for (std::size_t k = 0; k < count; ++k)
+        if ((*held)[first + k]) rate[2 * p][k] = rate[2 * p + 1][k] = 0;
 }
 
 /// All products of L^-1 D K x and the sweeps but the last, which belongs to the loop over blocks. A pair without any
@@ -271,8 +296,7 @@ int Rkc2::before_last(const Fields& x) {
             if (pass >= pairs_.sweeps(p)) continue;
             const SlicedMatrix& m = *pairs_.matrix(p);
             if (pass == 0)
-              loops_->diffuse(m, x[p].data(), nullptr, pairs_[p].diffusion.data(), first, last,
-                              product_[p].data() + at);
+              loops_->diffuse(m, x[p].data(), pairs_[p].diffusion.data(), first, last, product_[p].data() + at);
             else
               loops_->correct(m, (pass == 1 ? product_ : swept_)[p].data(), product_[p].data() + at, one.data(), first,
                               last, swept_[p].data() + at);
@@ -292,7 +316,7 @@ void Rkc2::last_product(std::size_t p, const Fields& x, std::size_t first, std::
     loops_->correct(*m, (sweeps == 1 ? product_ : swept_)[p].data(), product_[p].data() + 2 * slice_rows * first,
                     one.data(), first, last, out);
   } else {
-    loops_->diffuse(*m, x[p].data(), nullptr, pairs_[p].diffusion.data(), first, last, out);
+    loops_->diffuse(*m, x[p].data(), pairs_[p].diffusion.data(), first, last, out);
   }
 }
 
@@ -309,8 +333,10 @@ std::vector<ErrorTerms> Rkc2::error_terms(const System& system, double dt) const
   return terms;
 }
 
-/// f_next_ and g_next_ at y and t. With the step d that led from y_ to y, also the sums of the error estimate.
+/// f_next_, g_next_ and largest_ at y and t. With the step d that led from y_ to y, also the sums of the error
+/// estimate.
 RateSums Rkc2::evaluate(const System& system, const Fields& y, double t, const Fields* d, double dt) {
+  largest_.assign(species_ * species_, 0.0f);
   before_last(y);
   find_gradients(system, y, nullptr, t);
   const FloatRates rates = rates_at(system, t);
@@ -323,14 +349,14 @@ RateSums Rkc2::evaluate(const System& system, const Fields& y, double t, const F
       const std::size_t count = std::min(block_nodes, end - first), at = 2 * first;
       for (std::size_t p = 0; p < pairs_.size(); ++p)
         loops_->separate(y[p].data() + at, nullptr, count, work.u()[2 * p], work.u()[2 * p + 1]);
-      rates_of_block(system, rates, first, count, work, work.rate());
+      rates_of_block(rates, first, count, work, work.rate());
       for (std::size_t p = 0; p < pairs_.size(); ++p) {
         float* g = g_next_[p].data() + at;
         last_product(p, y, first / slice_rows, slices_below(first + count), g);
         loops_->add_rates(g, work.rate()[2 * p], work.rate()[2 * p + 1], count, f_next_[p].data() + at);
         if (d) add_error(terms[p], p, y, *d, first, count, sums);
       }
-      probe(system, rates, jacobian, first, std::min(probed_, count), work, sums);
+      probe(rates, jacobian, first, std::min(probed_, count), work);
     }
     return sums;
   };
@@ -361,17 +387,30 @@ std::vector<float> Rkc2::derivatives(const FloatRates& jacobian, std::size_t fir
   return values;
 }
 
+/// Whether a derivative by species j is larger at one of these nodes than what has been found elsewhere, in no order:
+/// where none is, nothing there counts.
+bool Rkc2::may_be_largest(const std::vector<float>& slopes, std::size_t j, std::size_t count) {
+  return std::ranges::any_of(pairs_.evolving(), [&](std::size_t i) {
+    const float* slope = slopes.data() + (i * species_ + j) * probed_;
+    const float found = std::atomic_ref<float>(largest_[i * species_ + j]).load(std::memory_order_relaxed);
+    unsigned above = 0;
+    for (std::size_t k = 0; k < count; ++k) above |= !(std::abs(slope[k]) <= found);
+    return above != 0;
+  });
+}
+
 /// The largest entries of the Jacobian of the reaction at the first nodes of a block whose values and rates are in
 /// `work`. Of derivative and difference quotient the smaller counts: where a rate jumps it has no slope that a step
-/// could be too long for, and where a root begins no bounded one.
-void Rkc2::probe(const System& system, const FloatRates& rates, const FloatRates& jacobian, std::size_t first,
-                 std::size_t count, BlockWork& work, RateSums& sums) const {
+/// could be too long for, and where a root begins no bounded one. A derivative that is hardly larger counts itself.
+void Rkc2::probe(const FloatRates& rates, const FloatRates& jacobian, std::size_t first, std::size_t count,
+                 BlockWork& work) {
   const std::vector<float> slopes = derivatives(jacobian, first, count, work);
   for (const std::size_t j : pairs_.evolving()) {
+    if (!may_be_largest(slopes, j, count)) continue;
     float* u = work.u()[pairs_.place(j)];
     const float step = probe_next_[j] > 0 ? 0.01f * probe_next_[j] : 1e-3f;
     for (std::size_t k = 0; k < count; ++k) u[k] += step;
-    rates_of_block(system, rates, first, count, work, work.other());
+    rates_of_block(rates, first, count, work, work.other());
     for (std::size_t k = 0; k < count; ++k) u[k] -= step;
     for (const std::size_t i : pairs_.evolving()) {
       const float *a = work.rate()[pairs_.place(i)], *b = work.other()[pairs_.place(i)];
@@ -379,11 +418,12 @@ void Rkc2::probe(const System& system, const FloatRates& rates, const FloatRates
       float largest = 0;
       for (std::size_t k = 0; k < count; ++k) {
         const float quotient = std::abs(b[k] - a[k]) / step;
-        const float entry = std::abs(slope[k]) < quotient ? std::abs(slope[k]) : quotient;
+        const float entry = trust_ * std::abs(slope[k]) < quotient ? std::abs(slope[k]) : quotient;
         largest = entry > largest ? entry : largest;
       }
-      double& entry = sums.jacobian[i * species_ + j];
-      entry = std::max(entry, static_cast<double>(largest));
+      std::atomic_ref<float> found(largest_[i * species_ + j]);
+      for (float before = found; before < largest && !found.compare_exchange_weak(before, largest);) {
+      }
     }
   }
 }
@@ -414,32 +454,49 @@ double Rkc2::stiffness() const {
 }
 
 /// d_ = rate f_0 within the clamps.
-void Rkc2::first_stage(const std::vector<StageTerms>& terms, float rate) {
+void Rkc2::first_stage(const std::vector<StageTerms>& terms) {
   parallel_for(
       nodes_,
       [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = 0; p < pairs_.size(); ++p) {
-          const float *y = y_[p].data(), *f = f_[p].data();
-          for (std::size_t k = 2 * begin; k < 2 * end; ++k) {
-            const float down = terms[p].lower[k % 2] - y[k], up = terms[p].upper[k % 2] - y[k];
-            const float d = rate * f[k], above = d < down ? down : d;
-            d_[p][k] = above > up ? up : above;
-            d_before_[p][k] = 0;
-          }
+          loops_->first_stage(terms[p], y_[p].data() + 2 * begin, f_[p].data() + 2 * begin, end - begin,
+                              d_[p].data() + 2 * begin);
+          std::fill_n(d_before_[p].data() + 2 * begin, 2 * (end - begin), 0.0f);
         }
       },
       piece_nodes);
 }
 
+/// set(pair, lane, node, value at time t) wherever values are given.
+template <class Set>
+void Rkc2::for_given(const System& system, double t, const Set& set) const {
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    for (std::size_t lane = 0; lane < pairs_[p].count; ++lane) {
+      if (pairs_[p].given[lane].empty()) continue;
+      Vector values(static_cast<Eigen::Index>(nodes_));
+      system.set_values(pairs_[p].species[lane], t, values);
+      for (const std::size_t k : pairs_[p].given[lane]) set(p, lane, k, values[static_cast<Eigen::Index>(k)]);
+    }
+}
+
+/// Stages are differences from the start of the step, at given values as well.
+void Rkc2::give_values(const System& system, double t, const std::vector<Vector>& now) {
+  for_given(system, t, [&](std::size_t p, std::size_t lane, std::size_t k, double value) {
+    d_[p][2 * k + lane] = static_cast<float>(value - now[pairs_[p].species[lane]][static_cast<Eigen::Index>(k)]);
+  });
+}
+
 /// d_ = u^(n+1) - u^n.
-void Rkc2::take_stages(const System& system, double t, double dt, int s) {
+void Rkc2::take_stages(const System& system, const std::vector<Vector>& now, double t, double dt, int s) {
   const std::vector<ChebyshevStage> stages = chebyshev_stages(s);
   std::vector<StageTerms> terms(pairs_.size());
   for (const std::size_t i : pairs_.evolving()) {
     terms[pairs_.place(i) / 2].lower[pairs_.place(i) % 2] = static_cast<float>(system.species[i].lower);
     terms[pairs_.place(i) / 2].upper[pairs_.place(i) % 2] = static_cast<float>(system.species[i].upper);
   }
-  first_stage(terms, static_cast<float>(stages[1].rate * dt));
+  for (StageTerms& of_pair : terms) of_pair.rate = static_cast<float>(stages[1].rate * dt);
+  first_stage(terms);
+  give_values(system, t + stages[1].time * dt, now);
   for (std::size_t j = 2; j < stages.size(); ++j) {
     const ChebyshevStage& stage = stages[j];
     for (StageTerms& of_pair : terms) {
@@ -459,7 +516,7 @@ void Rkc2::take_stages(const System& system, double t, double dt, int s) {
             const std::size_t count = std::min(block_nodes, end - first), at = 2 * first;
             for (std::size_t p = 0; p < pairs_.size(); ++p)
               loops_->separate(y_[p].data() + at, d_[p].data() + at, count, work.u()[2 * p], work.u()[2 * p + 1]);
-            rates_of_block(system, rates, first, count, work, work.rate());
+            rates_of_block(rates, first, count, work, work.rate());
             for (std::size_t p = 0; p < pairs_.size(); ++p) {
               float* q = work.product(p);
               last_product(p, d_, first / slice_rows, slices_below(first + count), q);
@@ -470,6 +527,7 @@ void Rkc2::take_stages(const System& system, double t, double dt, int s) {
         },
         piece_nodes);
     std::swap(d_, d_before_);
+    give_values(system, t + stage.time * dt, now);
   }
 }
 
@@ -551,13 +609,19 @@ Runaway Rkc2::worst(const std::vector<Vector>& now, std::size_t i) const {
 bool Rkc2::substep(const System& system, const std::vector<Vector>& now, double t, double dt,
                    const StepRequest& request, StepReport& report) {
   const int s = chebyshev_stage_count(dt * stiffness());
-  take_stages(system, t, dt, s);
+  take_stages(system, now, t, dt, s);
   // Besides the products: of every pair five arrays are read and one is written in a stage.
   const double fields = 6.0 * 2 * sizeof(float) * static_cast<double>(nodes_ * pairs_.size());
   report.iterations += s;
   report.bytes += s * (pairs_.bytes() + fields);
   finish(system, now, dt, report);
   if (!report.failure.empty()) return false;
+  // Given values to the last bit, and no part of the error.
+  for_given(system, t + dt, [&](std::size_t p, std::size_t lane, std::size_t k, double value) {
+    next_[pairs_[p].species[lane]][static_cast<Eigen::Index>(k)] = value;
+    y_next_[p][2 * k + lane] = static_cast<float>(value);
+    d_[p][2 * k + lane] = 0;
+  });
   const RateSums sums = evaluate(system, y_next_, t + dt, &d_, dt);
   report.error = std::max(report.error, system.mass ? error_of(sums) : without_order(error_of(sums)));
   if (report.error > request.largest_error) return false;
@@ -565,7 +629,7 @@ bool Rkc2::substep(const System& system, const std::vector<Vector>& now, double 
   std::swap(f_, f_next_);
   std::swap(g_, g_next_);
   probe_ = probe_next_;
-  jacobian_ = sums.jacobian;
+  jacobian_.assign(largest_.begin(), largest_.end());
   gradient_jacobian_ = gradients_.jacobian(system, t + dt);
   known_time_ = t + dt;
   return true;
@@ -636,6 +700,7 @@ constexpr StepperKind rkc2 = {.name = "rkc2",
                               .jump_tolerance = 1e-2,
                               .any_step = true,
                               .matrix_free = true,
+                              .gives_values = true,
                               .nodal = true};
 
 }  // namespace pelage

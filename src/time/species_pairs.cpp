@@ -14,13 +14,36 @@ namespace pelage {
 SpeciesPairs::SpeciesPairs(InstructionSet instructions, int sweeps)
     : loops_(&node_loops(instructions)), sweeps_(sweeps) {}
 
+namespace {
+
+const std::shared_ptr<const Held>& shared_held(const System& system, std::size_t species) {
+  const auto& own = system.species[species].held;
+  return own ? own : system.held;
+}
+
+bool same(const std::shared_ptr<const Held>& a, const std::shared_ptr<const Held>& b) {
+  return a == b || (a && b && *a == *b);
+}
+
+/// Where the value of a species is given and not only held.
+Held given_values(const System& system, std::size_t species) {
+  const auto& own = system.species[species].held;
+  if (!own || !system.set_values) return {};
+  Held given = *own;
+  for (std::size_t k = 0; system.held && k < given.size(); ++k) given[k] &= !(*system.held)[k];
+  return given;
+}
+
+}  // namespace
+
 bool SpeciesPairs::unchanged(const System& system) const {
   if (species_ != system.species.size() || held_ != system.held) return false;
   return std::ranges::all_of(evolving_, [&](std::size_t i) {
     const SpeciesPair& p = pairs_[place_[i] / 2];
     const std::size_t lane = place_[i] % 2;
     const Species& s = system.species[i];
-    if (p.diffusion[lane] != static_cast<float>(s.diffusion / area_)) return false;
+    if (p.diffusion[lane] != static_cast<float>(s.diffusion / area_) || !same(p.held, shared_held(system, i)))
+      return false;
     return s.diffusion == 0 ||
            (p.stiffness[p.stiffness.size() == 2 ? lane : 0] == s.stiffness && p.mass == mass_of(system, i));
   });
@@ -31,20 +54,11 @@ namespace {
 /// For the two species of a pair; both diffusions in 1 / time.
 PairedStencil paired_stencil(const Lattice& lattice, const LatticeStencil& first, const LatticeStencil& second) {
   PairedStencil s{lattice.count, lattice.periodic, {}};
-  for (int k = lattice.count[2] > 1 ? -1 : 0; k <= (lattice.count[2] > 1 ? 1 : 0); ++k)
-    for (int j = lattice.count[1] > 1 ? -1 : 0; j <= (lattice.count[1] > 1 ? 1 : 0); ++j) {
-      PairedStencil::Row& row = s.rows.emplace_back();
-      row.j = j;
-      row.k = k;
-      for (std::size_t t = 0; t < 3; ++t) {
-        const std::size_t n = t + static_cast<std::size_t>(3 * (j + 1) + 9 * (k + 1));
-        for (std::size_t lane = 0; lane < 2; ++lane) {
-          const LatticeStencil& of = lane == 0 ? first : second;
-          row.diffusion[t][lane] = static_cast<float>(of.diffusion[n]);
-          row.correction[t][lane] = static_cast<float>(of.correction[n]);
-        }
-      }
-    }
+  for (std::size_t n = 0; n < first.neighbours.size(); ++n) {
+    const double u = first.neighbours[n].weight, v = second.neighbours[n].weight;
+    if (u != 0 || v != 0)
+      s.neighbours.push_back({first.neighbours[n].step, {static_cast<float>(u), static_cast<float>(v)}});
+  }
   return s;
 }
 
@@ -80,7 +94,7 @@ bool SpeciesPairs::update_lattice(const System& system) {
     Operator o;
     o.sliced.rows = lattice_.nodes();
     o.sliced.stencil = paired_stencil(lattice_, first, second);
-    o.radius = {largest_rate(first, sweeps_), largest_rate(second, sweeps_)};
+    o.radius = {largest_rate(first), largest_rate(second)};
     p.matrix = operators_.size();
     operators_.push_back(std::move(o));
   }
@@ -106,9 +120,18 @@ bool SpeciesPairs::update(const System& system) {
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     for (std::size_t lane = 0; lane < pairs_[p].count; ++lane) place_[pairs_[p].species[lane]] = 2 * p + lane;
     pairs_[p].diffuses = !pairs_[p].stiffness.empty();
+    note_given(system, pairs_[p]);
     if (pairs_[p].diffuses) pairs_[p].matrix = keep_operator(system, pairs_[p], before);
   }
   return true;
+}
+
+void SpeciesPairs::note_given(const System& system, SpeciesPair& p) const {
+  for (std::size_t lane = 0; lane < p.count; ++lane) {
+    const Held given = given_values(system, p.species[lane]);
+    for (std::size_t k = 0; k < given.size(); ++k)
+      if (given[k]) p.given[lane].push_back(k);
+  }
 }
 
 /// Two species share a pair when they have one operator, or when one of them does not diffuse.
@@ -118,11 +141,14 @@ void SpeciesPairs::pair_alike(const System& system) {
     const Species& s = system.species[i];
     const bool diffuses = s.diffusion != 0;
     const auto fits = [&](const SpeciesPair& p) {
-      return p.count < 2 &&
+      return p.count < 2 && same(p.held, shared_held(system, i)) &&
              (!diffuses || p.stiffness.empty() || (p.stiffness[0] == s.stiffness && p.mass == mass_of(system, i)));
     };
     auto p = std::ranges::find_if(pairs_, fits);
-    if (p == pairs_.end()) p = pairs_.insert(p, SpeciesPair{});
+    if (p == pairs_.end()) {
+      p = pairs_.insert(p, SpeciesPair{});
+      p->held = shared_held(system, i);
+    }
     if (diffuses && p->stiffness.empty()) {
       p->stiffness = {s.stiffness};
       p->mass = mass_of(system, i);
@@ -138,7 +164,8 @@ void SpeciesPairs::pair_rest() {
     SpeciesPair& p = pairs_[a];
     if (p.count == 2 || p.stiffness.empty()) continue;
     const auto fits = [&](const SpeciesPair& q) {
-      return q.count == 1 && q.mass == p.mass && q.stiffness[0]->pattern == p.stiffness[0]->pattern;
+      return q.count == 1 && q.mass == p.mass && same(q.held, p.held) &&
+             q.stiffness[0]->pattern == p.stiffness[0]->pattern;
     };
     const auto q = std::find_if(pairs_.begin() + static_cast<std::ptrdiff_t>(a) + 1, pairs_.end(), fits);
     if (q == pairs_.end()) continue;
@@ -152,18 +179,20 @@ void SpeciesPairs::pair_rest() {
 
 /// Its number; made unless it is there, or among those `before`.
 std::size_t SpeciesPairs::keep_operator(const System& system, const SpeciesPair& pair, std::vector<Operator>& before) {
-  const auto same = [&](const Operator& o) {
-    return o.stiffness == pair.stiffness && o.mass == pair.mass && o.held == system.held;
+  const auto fits = [&](const Operator& o) {
+    return o.stiffness == pair.stiffness && o.mass == pair.mass && same(o.held, pair.held);
   };
-  if (const auto known = std::ranges::find_if(operators_, same); known != operators_.end())
+  if (const auto known = std::ranges::find_if(operators_, fits); known != operators_.end())
     return static_cast<std::size_t>(known - operators_.begin());
-  if (const auto old = std::ranges::find_if(before, same); old != before.end()) {
+  if (const auto old = std::ranges::find_if(before, fits); old != before.end()) {
     operators_.push_back(std::move(*old));
   } else {
     const std::size_t diffusing = pair.species[pair.diffusion[0] != 0 ? 0 : 1];
-    SlicedMatrix sliced = slice(pair.stiffness, *pair.mass, weight_of(system, diffusing), area_, system.held.get());
+    const Held given = given_values(system, diffusing);
+    SlicedMatrix sliced = slice(pair.stiffness, *pair.mass, weight_of(system, diffusing), area_, pair.held.get(),
+                                given.empty() ? nullptr : &given);
     const std::array<double, 2> radius = radius_of(sliced);
-    operators_.push_back({pair.stiffness, pair.mass, system.held, std::move(sliced), radius});
+    operators_.push_back({pair.stiffness, pair.mass, pair.held, std::move(sliced), radius});
   }
   return operators_.size() - 1;
 }
@@ -229,25 +258,24 @@ std::array<double, 2> SpeciesPairs::radius_of(const SlicedMatrix& m) const {
   constexpr double enough = 2e-3;
   constexpr std::array<float, 2> one = {1, 1};
   PairField x = first_guess(m), y(x.size()), g;
-  const auto times = [&](auto product, const PairField& in, const PairField* base, PairField& out) {
+  const auto by_slices = [&](auto&& product) {
     parallel_for(
-        m.slices(),
-        [&](std::size_t begin, std::size_t end) {
-          const std::size_t at = 2 * slice_rows * begin;
-          product(m, in.data(), base ? base->data() + at : nullptr, one.data(), begin, end, out.data() + at);
-        },
-        128);
+        m.slices(), [&](std::size_t begin, std::size_t end) { product(begin, end, 2 * slice_rows * begin); }, 128);
   };
   std::array<double, 2> radius{};
   for (int k = 0; k < iterations; ++k) {
     const std::array<double, 2> before = norms(x, m.twin);
     if (!(before[0] > 0 && before[1] > 0)) return {};
     for (std::size_t i = 0; i < x.size(); ++i) x[i] *= static_cast<float>(1 / before[i % 2]);
-    times(loops_->diffuse, x, nullptr, y);
+    by_slices([&](std::size_t begin, std::size_t end, std::size_t at) {
+      loops_->diffuse(m, x.data(), one.data(), begin, end, y.data() + at);
+    });
     std::swap(x, y);
     if (!m.correction.empty()) g = x;
     for (int sweep = 0; sweep < (m.correction.empty() ? 0 : sweeps_); ++sweep) {
-      times(loops_->correct, x, &g, y);
+      by_slices([&](std::size_t begin, std::size_t end, std::size_t at) {
+        loops_->correct(m, x.data(), g.data() + at, one.data(), begin, end, y.data() + at);
+      });
       std::swap(x, y);
     }
     const std::array<double, 2> next = norms(x, m.twin);

@@ -9,15 +9,17 @@
 
 namespace pelage {
 
-/// One species, or two that share a mass.
+/// One species, or two that share a mass and what is held.
 struct SpeciesPair {
   std::array<std::size_t, 2> species{};
   std::size_t count = 0;
   std::array<float, 2> diffusion{};     ///< D / a: as the operator has it, a number, so that no unit is in the rounding
   std::vector<SharedMatrix> stiffness;  ///< none where nothing diffuses, one for both species, or one for each
   SharedMatrix mass;
-  bool diffuses = false;   ///< whether either does
-  std::size_t matrix = 0;  ///< which of the operators, where something diffuses
+  std::shared_ptr<const Held> held;               ///< null: nothing
+  std::array<std::vector<std::size_t>, 2> given;  ///< nodes of either species that System::set_values knows
+  bool diffuses = false;                          ///< whether either does
+  std::size_t matrix = 0;                         ///< which of the operators, where something diffuses
 };
 
 /// The species of a system that do not follow, and what diffuses them:
@@ -55,6 +57,7 @@ class SpeciesPairs {
   };
   bool unchanged(const System& system) const;
   bool update_lattice(const System& system);
+  void note_given(const System& system, SpeciesPair& pair) const;
   void pair_alike(const System& system);
   void pair_rest();
   std::size_t keep_operator(const System& system, const SpeciesPair& pair, std::vector<Operator>& before);

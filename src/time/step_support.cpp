@@ -104,10 +104,10 @@ void advance(const System& system, State& state, double dt, std::vector<Vector>&
     report.minimum = std::min(report.minimum, low);
     report.maximum = std::max(report.maximum, high);
     if (species.algebraic) continue;  // follows the others, and may come to rest at a constant
-    const Vector difference = next[i] - state.now[i];
+    const double moved = norm(Vector(next[i] - state.now[i]));
     const Vector deviation = next[i].array() - sum(next[i]) / static_cast<double>(next[i].size());
     const double least = negligible * std::sqrt(static_cast<double>(deviation.size()));
-    const double amplitude = std::max(norm(deviation), least), moved = norm(difference);
+    const double amplitude = std::max(norm(deviation), least);
     if (moved > 0) report.change = std::max(report.change, moved / (amplitude * dt));
   }
   std::swap(state.now, next);

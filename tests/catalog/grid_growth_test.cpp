@@ -60,18 +60,26 @@ TEST(GridGrowth, ATileWrapsExactly) {
 
 double largest_difference(const Vector& a, const Vector& b) { return (a - b).cwiseAbs().maxCoeff(); }
 
-/// A map of the size that is 1 everywhere asks for matrices.
-TEST(GridGrowth, IsTheSameWithAndWithoutMatrices) {
-  for (const char* name : {"builtin:tile?n=48", "builtin:sheet?n=40x32", "builtin:box?n=14", "builtin:line?n=80"}) {
+/// A map of the size that is 1 everywhere asks for matrices. Along a line they hold the same numbers; in the plane and
+/// in space products of differences across each other are left out without them, which counts less the finer the grid.
+TEST(GridGrowth, IsNearlyTheSameWithAndWithoutMatrices) {
+  const auto difference = [](const std::string& name, const char* size) {
     const Grid grid = builtin_grid(name);
-    const std::string stage = "model = \"turing\"\nsize = \"9px\"\nstepper = \"rkc2\"\nstep = 5\n";
+    const std::string stage =
+        "model = \"turing\"\nsize = \"" + std::string(size) + "\"\nstepper = \"rkc2\"\nstep = 5\n";
     GridRun plain = run_on(grid, stage), with = run_on(grid, stage + "size-map = \"1 + 1e-9*x\"\n");
     EXPECT_EQ(plain.system().mass, nullptr);
     EXPECT_NE(with.system().mass, nullptr);
     for (GridRun* r : {&plain, &with}) grow(*r, 20);
+    double largest = 0;
     for (std::size_t s = 0; s < 2; ++s)
-      EXPECT_LT(largest_difference(plain.coefficients()[s], with.coefficients()[s]), 2e-4) << name;
-  }
+      largest = std::max(largest, largest_difference(plain.coefficients()[s], with.coefficients()[s]));
+    return largest;
+  };
+  EXPECT_LT(difference("builtin:line?n=80", "9px"), 2e-4);
+  EXPECT_LT(difference("builtin:tile?n=72", "18px"), 3e-3);
+  EXPECT_LT(difference("builtin:sheet?n=49x41", "18px"), 3e-3);
+  EXPECT_LT(difference("builtin:box?n=27", "18px"), 3e-2);
 }
 
 /// What a closed sheet shows, a periodic one of twice the size shows with its mirror image.

@@ -12,10 +12,14 @@
 
 #include "catalog/models.h"
 #include "catalog/plan.h"
+#include "gridgen/generate.h"
+#include "gridgen/patches.h"
 #include "io/grid_file.h"
 #include "io/mtl_reader.h"
+#include "io/tet_file.h"
 #include "io/texture_reader.h"
 #include "io/vtk_grid.h"
+#include "io/vtu_writer.h"
 #include "pelage/fair.h"
 #include "pelage/grow.h"
 #include "pelage/io.h"
@@ -24,8 +28,13 @@
 #include "react/place_formula.h"
 #include "react/stability.h"
 #include "react/wavelength.h"
+#include "recipe/document.h"
+#include "shape/atlas.h"
+#include "shape/cells.h"
 #include "shape/describe.h"
+#include "shape/grid.h"
 #include "shape/sample_meshes.h"
+#include "shape/tet_cut.h"
 
 namespace pelage {
 
@@ -62,6 +71,10 @@ void write_everywhere(const PolygonMesh& mesh) {
 }
 
 void use(const ShapeFile& file) {
+  if (file.mesh.triangles.empty()) {
+    accepted([&] { make_cells(std::make_shared<const TriangleMesh>(file.mesh), 50); });
+    return;
+  }
   const std::string violation = test::first_violation(file.mesh);
   promise(violation.empty(), violation);
   describe(file.mesh, file.findings);
@@ -144,6 +157,24 @@ void read_grid_as(const char* name, std::string_view bytes) {
   });
 }
 
+/// A volume goes through a file and comes back, and can be cut.
+template <Name name>
+void read_volume_as(std::string_view bytes) {
+  std::optional<TetFile> file;
+  if (!accepted([&] { file = read_tet_bytes(bytes, name.value); })) return;
+  const TetMesh& volume = file->volume;
+  for (const Tetrahedron& t : volume.tets)
+    for (const std::int32_t v : t) promise(v >= 0 && static_cast<std::size_t>(v) < volume.nodes(), "corners are nodes");
+  for (const Attribute& a : volume.attributes)
+    promise(a.values.size() == static_cast<std::size_t>(a.components) * volume.nodes(), "values are counted");
+  const Cut cut = plane_cut(volume.points, {1, 0.5, 0.25}, volume.points[0][0]);
+  carve(volume, {&cut, 1}).places(volume.points);
+  accepted([&] {
+    const TetMesh again = read_tet_bytes(vtu_bytes(volume), "again.vtu").volume;
+    promise(again.tets == volume.tets && again.points == volume.points, "a volume comes back");
+  });
+}
+
 void read_vtk(std::string_view bytes) { read_grid_as("input.vti", bytes); }
 
 void read_sheet(std::string_view bytes) { read_grid_as("input.png", bytes); }
@@ -190,6 +221,50 @@ void read_formula(std::string_view text) {
   });
 }
 
+// --- regions and patches --------------------------------------------------------------------------------
+
+/// A grid of few nodes: it is sound and has no folds, or the region is refused.
+void read_region(std::string_view text) {
+  accepted([&] {
+    Region region = parse_region(text, folder().file("region.toml"));
+    if (region.volume) region.volume->nodes = 4;
+    const GeneratedGrid made = generate(region, {.nodes = std::array{7, 6}, .most_iterations = 30});
+    require_sound(made.grid);
+    promise(made.quality.folded == 0, "no cell is folded");
+  });
+}
+
+/// Every node of a patch is one of the atlas, and triangles are between these.
+void use(const Atlas& atlas) {
+  for (const Atlas::Patch& patch : atlas.patches)
+    for (const std::int32_t n : patch.node) promise(n >= 0 && n < atlas.nodes, "nodes are numbered");
+  for (const Triangle& t : mesh_of(atlas).triangles)
+    promise(t[0] != t[1] && t[1] != t[2] && t[2] != t[0], "triangles have three corners");
+}
+
+/// What a file of patches asks for may be large, as it may for a user; here it may not.
+bool asks_for_little(const Value& document) {
+  constexpr double few = 40;
+  const auto little = [](const Value& table) {
+    const Value* nodes = table.find("nodes");
+    return !nodes || std::ranges::all_of(nodes->items(), [](const Value& n) { return n.number() <= few; });
+  };
+  return little(document) && std::ranges::all_of(document.at("patch").items(), little);
+}
+
+void read_patches(std::string_view text) {
+  accepted([&] {
+    if (asks_for_little(parse_document(text, "input.toml"))) use(parse_patches(text, folder().file("patches.toml"), 1));
+  });
+}
+
+void read_bezier(std::string_view bytes) {
+  folder().write("input.bpt", bytes);
+  accepted([&] {
+    use(parse_patches("nodes = [5, 4]\n[[patch]]\nfile = \"input.bpt\"\n", folder().file("patches.toml"), 1));
+  });
+}
+
 // --- checkpoints ----------------------------------------------------------------------------------------
 
 Growth small_growth() {
@@ -231,9 +306,14 @@ const std::vector<InputReader>& input_readers() {
                                                {"image", read_image},
                                                {"sheet", read_sheet},
                                                {"vtk", read_vtk},
+                                               {"vtu", read_volume_as<"input.vtu">},
+                                               {"msh", read_volume_as<"input.msh">},
                                                {"model", read_model},
                                                {"recipe", read_recipe},
                                                {"formula", read_formula},
+                                               {"region", read_region},
+                                               {"patches", read_patches},
+                                               {"bpt", read_bezier},
                                                {"checkpoint", read_checkpoint}};
   return all;
 }

@@ -55,7 +55,7 @@ TEST(Functional, gradient_is_that_of_differences) {
 }
 
 TEST(Functional, gradient_with_attraction_is_that_of_differences) {
-  const FormulaFunction attract({"1 + 3 * exp(-4 * x^2 - y)", {}}, {"x", "y", "z"});
+  const NodeDensity attract(FormulaFunction({"1 + 3 * exp(-4 * x^2 - y)", {}}, {"x", "y", "z"}));
   const Sheet sheet{{6, 6}, false};
   const std::vector<Point> nodes = uneven(sheet);
   for (const GridWeights& weights : each_alone)
@@ -65,7 +65,7 @@ TEST(Functional, gradient_with_attraction_is_that_of_differences) {
 TEST(Functional, gradient_on_a_surface_is_that_of_differences) {
   const auto coordinate = [](const char* text) { return FormulaFunction({text, {}}, {"u", "v"}); };
   const auto map = formula_surface({coordinate("u + 0.2 * v^2"), coordinate("v"), coordinate("0.5 * sin(2 * u) * v")});
-  const FormulaFunction attract({"1 + z^2 + x", {}}, {"x", "y", "z"});
+  const NodeDensity attract(FormulaFunction({"1 + z^2 + x", {}}, {"x", "y", "z"}));
   const Sheet sheet{{6, 5}, false};
   const std::vector<Point> nodes = uneven(sheet);
   for (const GridWeights& weights : each_alone)

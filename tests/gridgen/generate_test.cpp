@@ -3,13 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "base/parallel.h"
+#include "base/srgb.h"
 #include "catalog/regions.h"
 #include "gridgen/free_nodes.h"
 #include "gridgen/functional.h"
 #include "gridgen/transfinite.h"
 #include "gridgen/untangle.h"
+#include "io/grid_file.h"
 #include "shape/grid.h"
 #include "shape/vectors.h"
 
@@ -120,9 +123,8 @@ TEST(Generate, untangling_brings_back_nodes_from_anywhere) {
   EXPECT_EQ(first_folded(sheet, nodes), sheet.cells());
 }
 
-TEST(Generate, attraction_gives_nodes_in_proportion) {
-  const GeneratedGrid g =
-      made("attract = \"if(x < 0.5, 1, 1) + 8 * exp(-30 * ((x - 0.5)^2 + (y - 0.5)^2))\"" + square, 41, 41);
+/// Of a square of 41 x 41 nodes whose middle attracts them nine times as much as its corners.
+void expect_dense_middle(const GeneratedGrid& g) {
   const auto area_at = [&](std::int32_t i, std::int32_t j) {
     const auto& p = g.grid.points;
     const auto at = [&](std::int32_t a, std::int32_t b) { return p[static_cast<std::size_t>(g.grid.node(a, b, 0))]; };
@@ -132,6 +134,48 @@ TEST(Generate, attraction_gives_nodes_in_proportion) {
   EXPECT_LT(middle, corner / 3) << "the density is nine times as high";
   EXPECT_GT(middle, corner / 12);
   EXPECT_EQ(g.quality.folded, 0u);
+}
+
+TEST(Generate, attraction_gives_nodes_in_proportion) {
+  expect_dense_middle(
+      made("attract = \"if(x < 0.5, 1, 1) + 8 * exp(-30 * ((x - 0.5)^2 + (y - 0.5)^2))\"" + square, 41, 41));
+}
+
+double hill(double x, double y) { return std::exp(-30 * ((x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5))); }
+
+/// What a run left on a grid of the region, even or bent, or what an image shows.
+TEST(Generate, a_field_in_a_file_attracts_as_a_formula_does) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "pelage_generate_test";
+  std::filesystem::create_directories(folder);
+  Grid bent;
+  bent.count = {31, 31, 1};
+  Attribute b{"b", 1, Domain::vertex, {}};
+  for (int j = 0; j < 31; ++j)
+    for (int i = 0; i < 31; ++i) {
+      const double s = i / 30.0, t = j / 30.0, wave = 0.03 * std::sin(2 * M_PI * s) * std::sin(2 * M_PI * t);
+      bent.points.push_back({s + wave, t - wave, 0});
+      b.values.push_back(hill(s + wave, t - wave));
+    }
+  bent.set(b);
+  write_grid(bent, (folder / "bent.vts").string());
+  Grid image;
+  image.count = {64, 64, 1};
+  Attribute color{"color", 3, Domain::vertex, {}};
+  for (int j = 0; j < 64; ++j)
+    for (int i = 0; i < 64; ++i)
+      for (int k = 0; k < 3; ++k) color.values.push_back(linear_from_srgb(hill(i / 63.0, j / 63.0)));
+  image.set(color);
+  write_grid(image, (folder / "hill.png").string());
+  const auto grown = [&](const std::string& field) {
+    return generate(parse_region(field + square, (folder / "a.toml").string()), {.nodes = std::array{41, 41}});
+  };
+  const GeneratedGrid adapted = grown("attract = \"1 + 8*attribute(b)\"\nfield = \"bent.vts\"\n");
+  expect_dense_middle(adapted);
+  expect_dense_middle(
+      grown("attract = \"1 + 8*attribute(color)\"\nfield = {file = \"hill.png\", box = [[0, 0], [1, 1]]}\n"));
+  const GeneratedGrid by_formula = made("attract = \"1 + 8*exp(-30*((x - 0.5)^2 + (y - 0.5)^2))\"" + square, 41, 41);
+  for (std::size_t v = 0; v < adapted.grid.points.size(); ++v)
+    EXPECT_LT(length(difference(adapted.grid.points[v], by_formula.grid.points[v])), 5e-3) << v;
 }
 
 TEST(Generate, attraction_spreads_nodes_along_sides) {
@@ -269,6 +313,9 @@ TEST(Generate, faults_of_the_border_carry_their_place) {
             "a.toml:1:1: on a surface the border is given by u and v alone; leave out z");
   EXPECT_EQ(fault_of("attract = \"x - 0.5\"" + square),
             "a.toml:1:12: the attraction must be a positive number everywhere; at (0, 0) it is -0.5");
+  EXPECT_NE(fault_of("attract = \"1\"\nfield = \"none.vts\"" + square).find("none.vts"), std::string::npos);
+  EXPECT_EQ(fault_of("field = \"none.vts\"" + square),
+            "a.toml:1:9: a field is what attract reads; give that formula, too");
 }
 
 /// South reaches into a bay of west, which two nodes cut off.

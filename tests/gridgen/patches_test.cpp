@@ -82,6 +82,7 @@ TEST(Patches, FaultsAreLocated) {
   const auto fault = [](const std::string& text) { return message_of([&] { parse_patches(text, "p.toml"); }); };
   const std::string formula = "[patch.formula]\nx = \"u\"\ny = \"v\"\nz = \"0\"\n";
   EXPECT_NE(fault("[[patch]]\nnodes = [2, 5]\n" + formula).find("from 3 to 10000"), std::string::npos);
+  EXPECT_NE(fault("[[patch]]\nnodes = [10000, 10000]\n" + formula).find("too much memory"), std::string::npos);
   EXPECT_NE(fault("[[patch]]\nname = \"a\"\n").find("either formulas of u and v"), std::string::npos);
   EXPECT_NE(fault("[[patch]]\nbezier = [[0, 0, 0]]\n").find("16 control points"), std::string::npos);
   EXPECT_NE(fault("[[patch]]\n[patch.formula]\nx = \"1/u\"\ny = \"v\"\nz = \"0\"\n").find("not finite at u = 0"),

@@ -5,9 +5,11 @@
 #include <map>
 #include <utility>
 
+#include "io/gltf_image.h"
 #include "io/gltf_reader.h"
 #include "io/written_meshes.h"
 #include "pelage/error.h"
+#include "pelage/io.h"
 
 namespace pelage {
 namespace {
@@ -30,6 +32,21 @@ TEST(GlbWriter, RoundTripClosed) {
 
 TEST(GlbWriter, RoundTripSeams) {
   const TriangleMesh mesh = test::seamed_mesh(), back = round_trip(mesh);
+  EXPECT_TRUE(test::same_places(mesh, back));
+  EXPECT_LT(test::corner_difference(mesh, mesh.find("uv"), back, back.find("uv")), 1e-7);
+}
+
+TEST(GlbWriter, ATextureIsTheBaseColourInsteadOfTheVertices) {
+  const TriangleMesh mesh = test::seamed_mesh();
+  auto image = std::make_shared<Image>(Image{3, 2, {}});
+  for (int i = 0; i < 18; ++i) image->rgb.push_back(static_cast<float>(i) / 17);
+  TriangleMesh colored = mesh;
+  colored.set({"color", 3, Domain::vertex, std::vector<double>(3 * mesh.points.size(), 0.5)});
+  const std::string bytes = encode_glb(colored, {"mesh", UpAxis::y, image}), json = json_of(bytes);
+  EXPECT_EQ(gltf_base_image(bytes, "a.glb"), png_bytes(*image));
+  EXPECT_NE(json.find("\"baseColorTexture\":{\"index\":0}"), std::string::npos) << json;
+  EXPECT_EQ(json.find("COLOR_0"), std::string::npos);
+  const TriangleMesh back = test::raw_mesh(read_gltf(bytes, "a.glb"));
   EXPECT_TRUE(test::same_places(mesh, back));
   EXPECT_LT(test::corner_difference(mesh, mesh.find("uv"), back, back.find("uv")), 1e-7);
 }

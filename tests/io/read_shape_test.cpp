@@ -67,6 +67,24 @@ TEST_F(ReadShape, FaultsOfTheShapeNameFileLineAndElement) {
   error("a.obj", "v 0 0 0\n", ": the shape has no faces");
 }
 
+/// Points alone are a cloud, which keeps what the file says of them but for points that are nowhere.
+TEST_F(ReadShape, PointsWithoutFacesAreACloud) {
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 41\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float nx\nproperty float ny\nproperty float nz\nproperty float heat\nend_header\nnan 0 0 0 0 1 7\n";
+  for (int i = 0; i < 40; ++i) text += std::to_string(i % 8) + " " + std::to_string(i / 8) + " 0 0 0 1 5\n";
+  const ShapeFile cloud = read_shape(file("cloud.ply", text));
+  EXPECT_TRUE(cloud.mesh.triangles.empty());
+  ASSERT_EQ(cloud.mesh.points.size(), 40u);
+  EXPECT_EQ(cloud.mesh.points[9], (Point{1, 1, 0}));
+  EXPECT_EQ(cloud.mesh.find("normal")->values[2], 1);
+  EXPECT_EQ(cloud.mesh.find("heat")->values, std::vector<double>(40, 5.0));
+  const std::string again = folder_ + "again.ply";
+  save(cloud.mesh, again);
+  EXPECT_EQ(read_shape(again).mesh.points, cloud.mesh.points);
+  EXPECT_THROW(save(cloud.mesh, folder_ + "a.glb"), Error);
+}
+
 TEST_F(ReadShape, BlendersFilesStandOnZ) {
   const std::string vertices =
       "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"

@@ -11,6 +11,8 @@
 #include "catalog/models.h"
 #include "catalog/plan.h"
 #include "run/run.h"
+#include "shape/generators.h"
+#include "solid/fill.h"
 
 namespace pelage {
 namespace {
@@ -43,9 +45,10 @@ BorderCondition condition(const Exact& exact, const std::string& side, const std
 }
 
 /// At the time 0.1, as the root of the integral of its square.
-double error_on(const Grid& grid, const Exact& exact, Kind kind, const StepperKind& stepper) {
+double error_on(const NodeShape& nodes, const Exact& exact, Kind kind, const StepperKind& stepper) {
+  const Method& method = std::holds_alternative<TetMesh>(nodes) ? tets_method : grid_method;
   Program program;
-  program.method = &grid_method;
+  program.method = &method;
   StageProgram& stage = program.stages.emplace_back();
   stage.model =
       compile(parse_model("name = \"exact\"\nwavelength = 1\n[species.u]\ndiffusion = 0.25\nrate = \"" + exact.rate +
@@ -56,7 +59,7 @@ double error_on(const Grid& grid, const Exact& exact, Kind kind, const StepperKi
   stage.step = stage.suggested_step = 0.0005;
   stage.until = 0.1;
   for (const auto& [side, slope] : exact.slope) stage.borders.push_back(condition(exact, side, slope, kind));
-  Growth run(std::make_shared<const Program>(std::move(program)), World(grid_method.make_node_space(grid)));
+  Growth run(std::make_shared<const Program>(std::move(program)), World(method.make_node_space(nodes)));
   run.advance(1000);
   EXPECT_NE(run.summary().status, RunStatus::failed) << run.summary().message;
   EXPECT_NEAR(run.summary().time, 0.1, 1e-9);
@@ -66,12 +69,13 @@ double error_on(const Grid& grid, const Exact& exact, Kind kind, const StepperKi
   return std::sqrt(error.dot(*run.system().mass * error));
 }
 
-void expect_second_order(const std::function<Grid(std::int32_t)>& grid, std::int32_t n, const Exact& exact,
-                         double largest) {
+void expect_second_order(const std::function<NodeShape(std::int32_t)>& grid, std::int32_t n, const Exact& exact,
+                         double largest, const StepperKind& stepper = sbdf2) {
   for (const Kind kind : {Kind::value, Kind::flux, Kind::exchange}) {
-    const double coarse = error_on(grid(n), exact, kind, sbdf2), fine = error_on(grid(2 * n), exact, kind, sbdf2);
+    const double coarse = error_on(grid(n), exact, kind, stepper), fine = error_on(grid(2 * n), exact, kind, stepper);
     EXPECT_LT(fine, largest) << static_cast<int>(kind);
-    EXPECT_GE(std::log2(coarse / fine), 1.9) << static_cast<int>(kind) << ": " << coarse << " " << fine;
+    EXPECT_GE(std::log2(coarse / fine), 1.9) << exact.slope[0].first << " " << stepper.name << " "
+                                             << static_cast<int>(kind) << ": " << coarse << " " << fine;
   }
 }
 
@@ -110,6 +114,37 @@ TEST(Borders, ConditionsAreOfSecondOrderOnEvenSheets) {
 
 TEST(Borders, ConditionsAreOfSecondOrderOnDistortedSheets) {
   expect_second_order([](std::int32_t n) { return square(n, true); }, 12, in_plane, 1e-3);
+}
+
+TEST(Borders, StabilisedExplicitStepsKeepTheOrder) {
+  expect_second_order([](std::int32_t n) { return square(n, false); }, 8, in_plane, 1e-3, rkc2);
+  expect_second_order([](std::int32_t n) { return square(n, true); }, 12, in_plane, 1e-3, rkc2);
+}
+
+/// Through the other sides passes nothing, so the solution has no slope there.
+TEST(Borders, EverySideAloneKeepsTheOrder) {
+  const std::string pi = "3.141592653589793";
+  const auto quarter = [&](const std::string& distance) { return "cos(" + pi + "/4*" + distance + ")"; };
+  for (const auto& [name, far, other] :
+       {std::array{"xmin", "(1.2 - x)", "(y - 0.3)"}, std::array{"xmax", "(x - 0.2)", "(y - 0.3)"},
+        std::array{"ymin", "(1.3 - y)", "(x - 0.2)"}, std::array{"ymax", "(y - 0.3)", "(x - 0.2)"}}) {
+    // far: the distance from the side opposite, where the slope is 0.
+    const std::string wave = quarter(far) + "*cos(" + pi + "*" + std::string(other) + ")";
+    const double k2 = 17 * M_PI * M_PI / 16;
+    const bool along_x = name[0] == 'x', upper = std::string(name).ends_with("max");
+    const Exact exact = {wave,
+                         "exp(-t)*" + wave,
+                         "exp(-t)*" + std::to_string(k2 - 1) + "*" + wave,
+                         {{name, "-exp(-t)*" + pi + "/4*sin(" + pi + "/4*" + far + ")*cos(" + pi + "*" + other + ")"}},
+                         [=](const Point& p, double t) {
+                           const double a =
+                               along_x ? (upper ? p[0] - 0.2 : 1.2 - p[0]) : (upper ? p[1] - 0.3 : 1.3 - p[1]);
+                           const double b = along_x ? p[1] - 0.3 : p[0] - 0.2;
+                           return std::exp(-t) * std::cos(M_PI / 4 * a) * std::cos(M_PI * b);
+                         }};
+    for (const StepperKind* stepper : {&sbdf2, &rkc2})
+      expect_second_order([](std::int32_t n) { return square(n, true); }, 20, exact, 1e-3, *stepper);
+  }
 }
 
 TEST(Borders, OtherSteppersHeedThem) {
@@ -170,6 +205,22 @@ TEST(Borders, ConditionsAreOfSecondOrderInBlocks) {
   expect_second_order(block, 8, exact, 5e-3);
 }
 
+TEST(Borders, ConditionsAreOfSecondOrderOnTheSkinOfABall) {
+  const Exact exact = {"(sin(3*x + 0.5)*cos(2*y)*cos(z) + x*x)",
+                       "exp(-t)*(sin(3*x + 0.5)*cos(2*y)*cos(z) + x*x)",
+                       "exp(-t)*(13*sin(3*x + 0.5)*cos(2*y)*cos(z) - x*x - 2)",
+                       {{"skin",
+                         "exp(-t)*(x*(3*cos(3*x + 0.5)*cos(2*y)*cos(z) + 2*x) - y*sin(3*x + 0.5)*2*sin(2*y)*cos(z) - "
+                         "z*sin(3*x + 0.5)*cos(2*y)*sin(z))"}},
+                       [](const Point& p, double t) {
+                         return std::exp(-t) *
+                                (std::sin(3 * p[0] + 0.5) * std::cos(2 * p[1]) * std::cos(p[2]) + p[0] * p[0]);
+                       }};
+  const TriangleMesh sphere = builtin_shape("builtin:sphere?n=20000");
+  const auto ball = [&](std::int32_t n) { return fill(sphere, 1.0 / n, 4'000'000).volume; };
+  expect_second_order(ball, 5, exact, 3e-2);
+}
+
 std::string fault_of(const std::string& boundary, bool periodic = false, const std::string& more = "") {
   Grid g = square(8, false);
   g.periodic = {periodic, periodic, false};
@@ -192,8 +243,9 @@ TEST(Borders, RecipesSayThemAndFaultsAreLocated) {
   EXPECT_NE(fault_of("xmin = { a = { value = \"a\" } }\n").find("r.toml:5"), std::string::npos);
   EXPECT_NE(fault_of("xmin = { a = { valeu = 1 } }\n"), "");
   EXPECT_NE(fault_of("xmin = { a = { value = 1 } }\n", true).find("all its axes are periodic"), std::string::npos);
-  EXPECT_NE(fault_of("xmin = { a = { value = 1 } }\n", false, "stepper = \"rkc2\"\n").find("cannot give values"),
-            std::string::npos);
+  EXPECT_NE(
+      fault_of("xmin = { a = { value = 1 } }\n", false, "stepper = \"semi-implicit\"\n").find("cannot give values"),
+      std::string::npos);
 }
 
 /// An inflow at one side of a species that nothing else changes is what the amount grows by.

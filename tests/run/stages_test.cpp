@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "catalog/bind.h"
 #include "pelage/error.h"
@@ -301,13 +302,46 @@ TEST(RandomPoints, KeepTheirDistanceAndLeaveNoGap) {
   EXPECT_NE(distance, distance_to_random_points(positions, spacing, 2));
 }
 
-/// Neither where the surface lies nor how fine the points are asked for has a limit.
-/// On a tile the nearest point may lie beyond the border.
-TEST(RandomPoints, RepeatWhereSpaceDoes) {
-  constexpr int n = 24;
+std::vector<Point> tile_of_nodes(int n) {
   std::vector<Point> tile;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) tile.push_back({i / double(n), j / double(n), 0});
+  return tile;
+}
+
+TEST(JitteredDiamonds, AreAGridOnItsCornerWithoutJitterAndNoFurtherOffThanItSays) {
+  constexpr int n = 40, diamonds = 4;
+  const std::vector<Point> tile = tile_of_nodes(n);
+  const double spacing = std::numbers::sqrt2 / 2 / diamonds;
+  const auto distance = [&](double asked, double jitter, std::uint64_t seed) {
+    return distance_to_jittered_diamonds(tile, asked, jitter, seed, {1, 1, 0});
+  };
+  const std::vector<double> regular = distance(spacing, 0, 1);
+  for (std::size_t v = 0; v < tile.size(); ++v) {
+    double nearest = 1;
+    for (const double at : {0.25, 0.75}) {
+      const double x = std::remainder(diamonds * tile[v][0] - at, 1), y = std::remainder(diamonds * tile[v][1] - at, 1);
+      nearest = std::min(nearest, std::hypot(x, y));
+    }
+    EXPECT_NEAR(regular[v], nearest / diamonds / spacing, 1e-12);
+  }
+  // Whole diamonds fit into the period whatever was asked for.
+  const std::vector<double> fitted = distance(1.1 * spacing, 0, 1);
+  for (std::size_t v = 0; v < tile.size(); ++v) EXPECT_NEAR(1.1 * fitted[v], regular[v], 1e-12);
+  constexpr double jitter = 0.6;
+  const std::vector<double> disturbed = distance(spacing, jitter, 1);
+  double largest = 0;
+  for (std::size_t v = 0; v < tile.size(); ++v) largest = std::max(largest, std::abs(disturbed[v] - regular[v]));
+  EXPECT_LE(largest, jitter / std::numbers::sqrt2);
+  EXPECT_GT(largest, 0.6 * jitter / std::numbers::sqrt2);
+  EXPECT_NE(disturbed, distance(spacing, jitter, 2));
+  EXPECT_EQ(distance(1e-9, jitter, 1), std::vector<double>(tile.size(), 0));
+}
+
+/// On a tile the nearest point may lie beyond the border.
+TEST(RandomPoints, RepeatWhereSpaceDoes) {
+  constexpr int n = 24;
+  const std::vector<Point> tile = tile_of_nodes(n);
   constexpr double spacing = 0.2;
   const std::vector<double> distance = distance_to_random_points(tile, spacing, 3, {1, 1, 0});
   std::vector<Point> chosen;
@@ -328,6 +362,7 @@ TEST(RandomPoints, RepeatWhereSpaceDoes) {
     for (std::size_t b = 0; b < a; ++b) EXPECT_GE(around(chosen[a], chosen[b]), spacing - 1e-12);
 }
 
+/// Neither where the surface lies nor how fine the points are asked for has a limit.
 TEST(RandomPoints, FarAwayAndFinerThanAnyMesh) {
   std::vector<Point> positions = builtin_shape("builtin:torus?n=2000").points;
   for (Point& p : positions)
