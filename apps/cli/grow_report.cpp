@@ -73,9 +73,7 @@ std::string nodes_in_words(const NodeShape& nodes) {
     std::string operator()(const Grid& grid) const { return grid_in_words(grid); }
     std::string operator()(const Atlas& atlas) const { return counted(atlas.patches.size(), "patch"); }
     std::string operator()(const Cells& cells) const { return counted(cells.nodes(), "cell"); }
-    std::string operator()(const TetMesh& volume) const {
-      return counted(volume.tets.size(), "tetrahedron") + " between " + counted(volume.nodes(), "node");
-    }
+    std::string operator()(const TetMesh& volume) const { return std::to_string(volume.tets.size()) + " tetrahedra"; }
   };
   return std::visit(Words{}, nodes);
 }
