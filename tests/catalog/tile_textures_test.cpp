@@ -110,13 +110,21 @@ double share_on(const TileRun& run) {
   return p.empty() ? 0.5 : on / static_cast<double>(run.space().unknowns());
 }
 
-TEST_P(TileTextures, FollowTheirMapsAndComeToRest) {
-  const Texture& texture = GetParam();
+/// The last stage has twelve nodes to its wavelength.
+Recipe recipe_on_tile(const Texture& texture) {
   Recipe recipe = load_recipe(texture.name);
   for (Stage& stage : recipe.stages)
     stage.size = {{stage.size->value.value / recipe.stages.back().size->value.value * 12, Length::Unit::cells}, {}};
+  return recipe;
+}
+
+TileRun grown(const Recipe& recipe) {
   TileRun run(make_program(recipe, builtin_grid("builtin:tile?n=112")));
   run.advance(1'000'000);
+  return run;
+}
+
+void expect_texture(const Texture& texture, const TileRun& run) {
   ASSERT_NE(run.summary().status, RunStatus::failed) << run.summary().message;
   EXPECT_FALSE(run.uniform());
   const Vector& shown = run.coefficients()[run.coefficients().size() - 1];
@@ -127,7 +135,31 @@ TEST_P(TileTextures, FollowTheirMapsAndComeToRest) {
   const double on = share_on(run);
   EXPECT_GT(on, texture.least_on);
   EXPECT_LT(on, texture.most_on);
+}
+
+TEST_P(TileTextures, FollowTheirMapsAndComeToRest) {
+  const TileRun run = grown(recipe_on_tile(GetParam()));
+  expect_texture(GetParam(), run);
   EXPECT_LT(run.summary().change, 0.15);  // per time in which morphogens decay
+}
+
+/// Those whose rates do not change with time.
+std::vector<Texture> steady_textures() {
+  std::vector<Texture> steady;
+  for (const Texture& t : textures)
+    if (!std::string_view(t.name).ends_with("giraffe") && std::string_view(t.name) != "stucco") steady.push_back(t);
+  return steady;
+}
+
+class SteadyTextures : public testing::TestWithParam<Texture> {};
+
+TEST_P(SteadyTextures, AreTheSameAtExactRest) {
+  Recipe recipe = recipe_on_tile(GetParam());
+  for (Stage& stage : recipe.stages) stage.stepper = {"sign-iteration", {}};
+  const TileRun run = grown(recipe);
+  expect_texture(GetParam(), run);
+  EXPECT_EQ(run.summary().status, RunStatus::stationary);
+  EXPECT_EQ(run.summary().change, 0);
 }
 
 /// Of five pairs together a wave across one of the directions feeds the mean by little more than a wave between two:
@@ -140,11 +172,14 @@ TEST(TwistyMaze, ShowsItsFiveDirections) {
   EXPECT_GT(order(run.coefficients().back(), 5, along), 0.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, TileTextures, testing::ValuesIn(textures), [](const auto& test) {
+std::string name_of(const testing::TestParamInfo<Texture>& test) {
   std::string name = test.param.name;
   std::erase(name, '-');
   return name;
-});
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TileTextures, testing::ValuesIn(textures), name_of);
+INSTANTIATE_TEST_SUITE_P(All, SteadyTextures, testing::ValuesIn(steady_textures()), name_of);
 
 }  // namespace
 }  // namespace pelage
