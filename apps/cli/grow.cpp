@@ -348,7 +348,9 @@ Carving carving_of(const GrowOptions& options, const Plan& planned, UpAxis up) {
 }
 
 /// What a shape of that kind has not: before any work.
-void check_kind(const GrowOptions& options, const ShapeFile& file, const Carving& carving) {
+void check_kind(const GrowOptions& options, const Look& look, const ShapeFile& file, const Carving& carving) {
+  if (file.nodes && (look.flat || look.keep_shape || look.detail.value_or(0) > 0))
+    throw Error(Fault::usage, "the shape is coloured at its own nodes: leave --flat, --keep-shape and --detail out");
   for (const std::string& path : options.outputs)
     if (is_node_output(path)) check_node_output(path, file.nodes.get());
   if (!is_volume(file.nodes.get()) && (!options.cuts.empty() || options.isosurface))
@@ -361,6 +363,53 @@ void check_kind(const GrowOptions& options, const ShapeFile& file, const Carving
     for (const std::string& path : options.outputs)
       if (const std::string kind = lower_extension(path); kind == ".glb" || kind == ".stl")
         throw Error(Fault::usage, path + ": a cloud of points has no triangles for a file of this kind; take .ply");
+}
+
+/// Whether the method that is asked for is one for shapes of that kind.
+template <class Kind>
+bool is_for(const Plan& planned) {
+  return planned.method->fits && planned.method->fits(Kind{});
+}
+
+ShapeFile read_input(const GrowOptions& options, const std::string& shape, const Plan& planned,
+                     const std::vector<Texture>& images, const Progress& progress) {
+  ShapeFile file =
+      is_for<Cells>(planned) ? read_for_cells(shape, options.input_unit) : read_shape(shape, options.input_unit);
+  if (is_for<TetMesh>(planned)) progress("filling", 0);
+  fill_solid(planned, file, images);
+  return file;
+}
+
+void write_files(const GrowOptions& options, const Grown& grown, const ShapeFile& file, bool keep_shape,
+                 SaveOptions form, const Progress& progress, GrowReport& report) {
+  if (grown.texture && options.bake) form.texture = grown.texture->image;
+  const auto save_as = [&](const std::string& path) -> Saving {
+    if (grown.image) {
+      write_png(*grown.image, path);
+      return {{path}, "", {}};
+    }
+    if (grown.texture && (options.bake || is_node_output(path))) return save_with_texture(grown, path, form);
+    if (is_node_output(path)) return {{path}, save_nodes(*grown.nodes, grown.coat, path), {}};
+    if (grown.body) return save_body(*grown.body, path, form);
+    if (!keep_shape || grown.shape->triangles.empty()) return save_mesh(grown.coat, path, form);
+    return save_mesh(kept_shape(form_of_shape(file, *grown.shape), grown.coat, grown.paint), path, form);
+  };
+  write_outputs(options.outputs, save_as, progress, report);
+  if (!options.patch_images.empty())
+    for (const std::string& path : save_patches(*grown.texture, options.patch_images)) report.file(path);
+}
+
+void write_pictures(const GrowOptions& options, const Recipe& recipe, const Grown& grown, const ShapeFile& file,
+                    const PictureOptions& picture, const Progress& progress, GrowReport& report) {
+  write_picture(options.picture, progress, report, [&](const Progress& p) {
+    const Grid* grid = as<Grid>(file.nodes);
+    if (grown.image) return picture_of_nodes(*grid, *grown.image, options.preview, options.picture_size);
+    if (grid && grid->dimension() < 3 && is_flat(*grid))
+      return picture_of_nodes(*grid, grown.coat, options.preview, options.picture_size);
+    return render(grown.body ? split_corners(*grown.body) : grown.coat, picture, p);
+  });
+  write_picture(options.panels, progress, report,
+                [&](const Progress& p) { return four_panels(recipe, *grown.shape, grown.coat, picture, p); });
 }
 
 void grow(const GrowOptions& options) {
@@ -381,45 +430,17 @@ void grow(const GrowOptions& options) {
 
   progress("reading " + recipe.shape, 0);
   std::vector<Texture> images = read_images(recipe.textures);
-  const bool on_cells = planned.method->fits && planned.method->fits(Cells{});
-  ShapeFile file =
-      on_cells ? read_for_cells(recipe.shape, options.input_unit) : read_shape(recipe.shape, options.input_unit);
-  progress("filling", 0);
-  fill_solid(planned, file, images);
+  ShapeFile file = read_input(options, recipe.shape, planned, images, progress);
   report.shape(recipe.shape, file);
   const UpAxis up = options.up.value_or(file.up);
   Carving carving = carving_of(options, planned, up);
-  check_kind(options, file, carving);
+  check_kind(options, recipe.look, file, carving);
   if (!recipe.look.keep_shape) file.source.reset();
 
   const Grown grown =
       grown_coat(options, planned, recipe.look, file, std::move(images), std::move(carving), progress, report);
-  SaveOptions form{object_name(file, recipe.shape), up};
-  if (grown.texture && options.bake) form.texture = grown.texture->image;
-  const auto save_as = [&](const std::string& path) -> Saving {
-    if (grown.image) {
-      write_png(*grown.image, path);
-      return {{path}, "", {}};
-    }
-    if (grown.texture && (options.bake || is_node_output(path))) return save_with_texture(grown, path, form);
-    if (is_node_output(path)) return {{path}, save_nodes(*grown.nodes, grown.coat, path), {}};
-    if (grown.body) return save_body(*grown.body, path, form);
-    if (!recipe.look.keep_shape || grown.shape->triangles.empty()) return save_mesh(grown.coat, path, form);
-    return save_mesh(kept_shape(form_of_shape(file, *grown.shape), grown.coat, grown.paint), path, form);
-  };
-  write_outputs(options.outputs, save_as, progress, report);
-  if (!options.patch_images.empty())
-    for (const std::string& path : save_patches(*grown.texture, options.patch_images)) report.file(path);
-  const PictureOptions picture = picture_options(options, *planned.quality, up);
-  write_picture(options.picture, progress, report, [&](const Progress& p) {
-    if (grown.image)
-      return picture_of_nodes(*as<Grid>(file.nodes), *grown.image, options.preview, options.picture_size);
-    if (const Grid* grid = as<Grid>(file.nodes); grid && grid->dimension() < 3 && is_flat(*grid))
-      return picture_of_nodes(*grid, grown.coat, options.preview, options.picture_size);
-    return render(grown.body ? split_corners(*grown.body) : grown.coat, picture, p);
-  });
-  write_picture(options.panels, progress, report,
-                [&](const Progress& p) { return four_panels(recipe, *grown.shape, grown.coat, picture, p); });
+  write_files(options, grown, file, recipe.look.keep_shape, {object_name(file, recipe.shape), up}, progress, report);
+  write_pictures(options, recipe, grown, file, picture_options(options, *planned.quality, up), progress, report);
   if (options.profile) report.profile(profile);
   report.end(total.seconds());
 }

@@ -200,8 +200,7 @@ void add_look_options(CLI::App& app, GrowOptions& o) {
       ->group(group);
 }
 
-void add_output_options(CLI::App& app, GrowOptions& o) {
-  const std::string group = "Output";
+void add_file_options(CLI::App& app, GrowOptions& o, const std::string& group) {
   app.add_option("-o,--output", o.outputs,
                  "Files for the coated mesh; the extension is the format" + choices(mesh_extensions()) +
                      "; of grids and volumes also" + choices(node_output_extensions()) +
@@ -223,6 +222,30 @@ void add_output_options(CLI::App& app, GrowOptions& o) {
   app.add_option("--patch-images", o.patch_images, "Of patches: folder for an image of each, PATCH.png")
       ->type_name("FOLDER")
       ->group(group);
+  app.add_option("--height-map", o.height_map,
+                 "Of a sheet: file for the shown species as a relief, .png of 16-bit grey, its lowest value black and "
+                 "its highest white")
+      ->type_name("FILE")
+      ->group(group);
+}
+
+void add_inside_options(CLI::App& app, GrowOptions& o, const std::string& group) {
+  app.add_option(
+         "--cut", o.cuts,
+         "Of a volume: cut away where that holds, \"x<0\" or \"x>0 and y+z>0.5\", in pictures and meshes; \"x=0\": the "
+         "side that pictures look from. May be given several times")
+      ->type_name("CONDITION")
+      ->allow_extra_args(false)
+      ->group(group);
+  app.add_option(
+         "--isosurface", o.isosurface,
+         "Of a volume: show the solid where a species is above a level, or with SPECIES<LEVEL below it (default: "
+         "halfway between its lowest and highest value); closed, for printing")
+      ->type_name("SPECIES[=LEVEL]")
+      ->group(group);
+}
+
+void add_picture_options(CLI::App& app, GrowOptions& o, const std::string& group) {
   app.add_option("--picture", o.picture, "File for a picture: .png; of a flat grid its nodes as pixels")
       ->type_name("FILE")
       ->group(group);
@@ -238,26 +261,8 @@ void add_output_options(CLI::App& app, GrowOptions& o) {
          "Show a flat grid so many times across and down in its picture, as a floor of tiles: 3x3")
       ->type_name("NxM")
       ->group(group);
-  app.add_option(
-         "--cut", o.cuts,
-         "Of a volume: cut away where that holds, \"x<0\" or \"x>0 and y+z>0.5\", in pictures and meshes; \"x=0\": the "
-         "side that pictures look from. May be given several times")
-      ->type_name("CONDITION")
-      ->allow_extra_args(false)
-      ->group(group);
-  app.add_option(
-         "--isosurface", o.isosurface,
-         "Of a volume: show the solid where a species is above a level, or with SPECIES<LEVEL below it (default: "
-         "halfway between its lowest and highest value); closed, for printing")
-      ->type_name("SPECIES[=LEVEL]")
-      ->group(group);
   app.add_option("--plot", o.plot,
                  "Of a line: file for a picture of the pattern in the course of time, downwards: .png")
-      ->type_name("FILE")
-      ->group(group);
-  app.add_option("--height-map", o.height_map,
-                 "Of a sheet: file for the shown species as a relief, .png of 16-bit grey, its lowest value black and "
-                 "its highest white")
       ->type_name("FILE")
       ->group(group);
   app.add_option("--panels", o.panels,
@@ -278,10 +283,16 @@ void add_output_options(CLI::App& app, GrowOptions& o) {
            o.up = axis->second;
          },
          "Which axis of the shape points up, y or z, in pictures and in GLB, which is turned for it (default: what the "
-         "file "
-         "says, otherwise y)")
+         "file says, otherwise y)")
       ->type_name("AXIS")
       ->group(group);
+}
+
+void add_output_options(CLI::App& app, GrowOptions& o) {
+  const std::string group = "Output";
+  add_file_options(app, o, group);
+  add_inside_options(app, o, group);
+  add_picture_options(app, o, group);
   app.add_flag("--profile", o.profile, "Print where the time went")->group(group);
   app.add_flag("--json", o.json, "Print what was done as JSON")->group(group);
   app.add_flag("-q,--quiet", o.quiet, "Print warnings and errors only")->group(group);
@@ -482,10 +493,6 @@ Recipe make_recipe(const GrowOptions& options) {
 void check_inputs(const GrowOptions& options, const Recipe& recipe) {
   for (const TextureFile& texture : recipe.textures) require_file(texture.path);
   check_shape_name(recipe.shape);
-  const Look& look = recipe.look;
-  if ((names_grid(recipe.shape) || names_atlas(recipe.shape)) &&
-      (look.flat || look.keep_shape || look.detail.value_or(0) > 0))
-    throw Error(Fault::usage, "a grid is coloured at its own nodes: leave --flat, --keep-shape and --detail out");
   if (options.nested && !names_grid(recipe.shape))
     throw Error(Fault::usage, "--nested begins on coarser grids, and the shape is no grid; leave it out");
   if (options.nested && !options.resume.empty())

@@ -199,7 +199,7 @@ TessellationRequest tessellation_request(const Look& look, const Paint& paint) {
 
 void require_own_nodes(const TessellationRequest& request) {
   if (request.flat || request.detail.value_or(0) > 0)
-    throw Error(Fault::usage, "a grid is coloured at its own nodes: leave flat, keep_shape and detail out");
+    throw Error(Fault::usage, "the shape is coloured at its own nodes: leave flat, keep_shape and detail out");
 }
 
 namespace {

@@ -83,6 +83,7 @@ refused 2 'is for even grids' grow 'builtin:sphere?n=642' --stepper etd -o a.glb
 refused 2 'diffusion that is the same everywhere' grow 'builtin:tile?n=48' --recipe zebra --stepper gaussian -o a.png
 refused 2 'these nodes stay where they are' grow 'builtin:tile?n=48' --fair -o a.png
 refused 2 'coloured at its own nodes' grow 'builtin:tile?n=48' --detail 2 -o a.png
+refused 2 'coloured at its own nodes' grow builtin:sphere --solid --keep-shape --size 0.3 -o a.glb
 refused 2 'a line does in the course of time' grow 'builtin:tile?n=48' --plot a.png
 refused 2 'a block has no height' grow 'builtin:box?n=8' --model turing --size 4px --height-map a.png
 refused 2 'for sheets of grids' grow 'builtin:sphere?n=642' --height-map a.png
