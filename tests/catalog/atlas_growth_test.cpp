@@ -156,8 +156,11 @@ TEST(AtlasGrowth, NothingOfTheSeamsShowsInThePattern) {
                      inside = statistics(u, weight, [&](Eigen::Index v) { return !at_seam(v); });
     means.push_back(seam.mean - inside.mean);
     variances.push_back(seam.variance - inside.variance);
+    if (seed > 2) continue;
     patched += wavelength_of(run);
-    plain += wavelength_of(grown(make_program(spots(size, seed), load_shape("builtin:sphere?n=2562"))));
+    Recipe on_loop = spots(size, seed);
+    on_loop.stages[0].method = {"loop", {}};
+    plain += wavelength_of(grown(make_program(on_loop, load_shape("builtin:sphere?n=2562"))));
   }
   EXPECT_LT(sigmas(means), 3);
   EXPECT_LT(sigmas(variances), 3);
