@@ -19,19 +19,6 @@ Point Grid::point(std::int32_t node) const {
   return p;
 }
 
-const Attribute* Grid::find(std::string_view name) const {
-  const auto it = std::ranges::find(attributes, name, &Attribute::name);
-  return it == attributes.end() ? nullptr : &*it;
-}
-
-void Grid::set(Attribute attribute) {
-  const auto it = std::ranges::find(attributes, attribute.name, &Attribute::name);
-  if (it == attributes.end())
-    attributes.push_back(std::move(attribute));
-  else
-    *it = std::move(attribute);
-}
-
 std::vector<std::string> axis_ends(const Grid& grid) {
   std::vector<std::string> names;
   for (std::size_t a = 0; a < static_cast<std::size_t>(grid.dimension()); ++a)

@@ -39,19 +39,6 @@ std::vector<Side> skin_of(const std::vector<Tetrahedron>& tets) {
 
 }  // namespace
 
-const Attribute* TetMesh::find(std::string_view name) const {
-  const auto it = std::ranges::find(attributes, name, &Attribute::name);
-  return it == attributes.end() ? nullptr : &*it;
-}
-
-void TetMesh::set(Attribute attribute) {
-  const auto it = std::ranges::find(attributes, attribute.name, &Attribute::name);
-  if (it == attributes.end())
-    attributes.push_back(std::move(attribute));
-  else
-    *it = std::move(attribute);
-}
-
 double mean_edge(const TetMesh& volume) {
   double sum = 0;
   for (const Tetrahedron& t : volume.tets)

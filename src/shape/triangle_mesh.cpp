@@ -3,7 +3,9 @@
 #include <utility>
 
 #include "base/ascii.h"
+#include "pelage/grid.h"
 #include "pelage/polygon_mesh.h"
+#include "pelage/tet_mesh.h"
 
 namespace pelage {
 
@@ -50,6 +52,12 @@ void TriangleMesh::set(Attribute attribute) { set_in(attributes, std::move(attri
 const Attribute* PolygonMesh::find(std::string_view name) const { return find_in(attributes, name); }
 Attribute* PolygonMesh::find(std::string_view name) { return const_cast<Attribute*>(find_in(attributes, name)); }
 void PolygonMesh::set(Attribute attribute) { set_in(attributes, std::move(attribute)); }
+
+const Attribute* Grid::find(std::string_view name) const { return find_in(attributes, name); }
+void Grid::set(Attribute attribute) { set_in(attributes, std::move(attribute)); }
+
+const Attribute* TetMesh::find(std::string_view name) const { return find_in(attributes, name); }
+void TetMesh::set(Attribute attribute) { set_in(attributes, std::move(attribute)); }
 
 PolygonMesh polygons_of(const TriangleMesh& mesh) {
   PolygonMesh result;
