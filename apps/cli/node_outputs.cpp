@@ -38,6 +38,7 @@ std::vector<std::string> extensions_of(const NodeShape* shape) {
 
 /// What the coat has at its vertices, as attributes of a volume.
 TetMesh on_volume(TetMesh volume, const TriangleMesh& coat) {
+  volume.points = coat.points;  // it may have moved
   volume.attributes = coat.attributes;
   std::erase_if(volume.attributes, [](const Attribute& a) { return a.name == "normal"; });
   volume.metres_per_unit = coat.metres_per_unit;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,8 @@ struct TetMesh {
   std::vector<Tetrahedron> tets;
   std::vector<Attribute> attributes;  ///< per node (Domain::vertex)
   std::optional<double> metres_per_unit = {};
+  /// What it fills; null where it comes from a file.
+  std::shared_ptr<const TriangleMesh> surface = {};
 
   std::size_t nodes() const { return points.size(); }
   /// The attribute of that name, or nullptr.

@@ -263,10 +263,14 @@ void require_at_rest(const Plan& plan) {
     throw Error(Fault::usage, "these nodes stay where they are: leave fairing and growth out");
 }
 
+/// Of all lengths, when the surface is at its largest: then edges have to do.
+double largest_scale(const Plan& plan) { return std::exp(std::max(0.0, plan.motion.growth * plan.until)); }
+
 /// The nodes of a grid are what they are.
-void warn_if_coarse(const PlannedStage& planned, Program& p) {
+void warn_if_coarse(const PlannedStage& planned, double largest_scale, Program& p) {
   const StageProgram& s = p.stages.back();
-  const double needed = planned.model.source().suggestions.resolution_or_default(), nodes = s.size / p.edge;
+  const double needed = planned.model.source().suggestions.resolution_or_default(),
+               nodes = s.size / (largest_scale * p.edge);
   if (nodes < needed)
     p.warnings.push_back((p.stages.size() > 1 ? s.name + ": " : "") + "the wavelength is " + number(nodes, 3) +
                          " times the distance of the nodes, fewer than the " + number(needed) +
@@ -279,7 +283,7 @@ void bind_stages(const Plan& plan, const ShapeScale& scale, const Point& period,
     p.stages.push_back(bind_stage(s, p, scale));
     p.stages.back().period = period;
     note_directions(p, p.stages.back(), p.warnings);
-    warn_if_coarse(s, p);
+    warn_if_coarse(s, largest_scale(plan), p);
   }
   count_iterations(plan, p);
 }
@@ -293,7 +297,7 @@ Program bind_plan(const Plan& plan, std::shared_ptr<const NodeShape> nodes, Tria
   if (grid && !plan.textures.empty() && !mesh.find("uv")) mesh.set(uv_of(*grid));
   const ShapeScale scale = scale_of(*nodes, mesh);
   require_fitting(plan, mesh, scale);
-  require_at_rest(plan);
+  if (!as<TetMesh>(nodes)) require_at_rest(plan);
   Program p = begin_program(plan, std::move(images));
   p.method = node_method_of(plan, *nodes);
   p.nodes = std::move(nodes);
@@ -318,6 +322,9 @@ void bind_surface(const Plan& plan, const ShapeScale& scale, Program& p) {
   constexpr double longest_share = 0.02;
   if (p.method->own_mesh || p.method->fits) p.edge = std::min(p.edge, longest_share * scale.diagonal);
   for (double& edge : p.edges) edge = std::min(edge, longest_share * scale.diagonal);
+  const double growth = largest_scale(plan);
+  p.edge /= growth;
+  for (double& edge : p.edges) edge /= growth;
 }
 
 bool fills(const Method& method) { return method.fits && method.fits(TetMesh{}); }
@@ -382,11 +389,11 @@ Program bind_cells(const Plan& plan, TriangleMesh mesh, std::vector<Texture> ima
 
 void fill_solid(const Plan& plan, ShapeFile& shape, const std::vector<Texture>& images) {
   if (shape.nodes || !fills(*plan.method)) return;
-  require_at_rest(plan);
   const double edge = edge_inside(plan, shape.mesh, images);
   Filling filling = fill(shape.mesh, edge, max_tets);
   constexpr double noticeable = 0.03;
   if (filling.lost > noticeable) shape.findings.push_back(lost_volume(filling.lost, edge));
+  filling.volume.surface = std::make_shared<const TriangleMesh>(std::move(shape.mesh));
   shape.mesh = mesh_of(filling.volume);
   shape.source.reset();
   shape.nodes = std::make_shared<const NodeShape>(std::move(filling.volume));
@@ -412,10 +419,6 @@ Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> ima
   p.method = fitting_method(plan, shape, p.warnings);
   p.shape = std::make_shared<const TriangleMesh>(std::move(shape));
   bind_surface(plan, scale, p);
-  // They have to do when the surface is at its largest.
-  const double growth = std::exp(std::max(0.0, plan.motion.growth * plan.until));
-  p.edge /= growth;
-  for (double& edge : p.edges) edge /= growth;
   count_iterations(plan, p);
   return p;
 }

@@ -157,6 +157,7 @@ Tessellation at_vertices(const Tessellation& nodes, const CarvedBody& body) {
   t.triangles = body.triangles;
   t.samples = nodes.samples;
   t.samples.position = body.places(places_of(nodes));
+  if (!nodes.samples.drawn_at.empty()) t.samples.drawn_at = body.places(nodes.samples.drawn_at);
   t.samples.normal.assign(body.vertices(), {});
   for (std::vector<double>& field : t.samples.fields) field = body.at_vertices(field, 1);
   for (auto& [name, values] : t.samples.attributes) values = body.at_vertices(values, 1);

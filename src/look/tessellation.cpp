@@ -242,6 +242,7 @@ Tessellation nodes_of_shape(const CoatFields& fields, const TessellationRequest&
   t.samples.position = std::move(places.position);
   t.samples.normal = std::move(places.normal);
   t.samples.curvature = std::move(places.curvature);
+  if (!fields.initial_control.empty()) t.samples.drawn_at = fields.initial_control;
   t.samples.fields = fields.coefficients;
   t.attributes = kept_attributes(fields.shape->attributes);
   take_rest(fields, *fields.shape, request, t);

@@ -33,6 +33,7 @@ void add_tets(Fingerprint& f, const TetMesh& volume) {
   f.add(static_cast<std::uint64_t>(volume.tets.size()));
   for (const Tetrahedron& t : volume.tets)
     for (const std::int32_t node : t) f.add(static_cast<std::uint64_t>(node));
+  if (volume.surface) add_shape(f, *volume.surface);
 }
 
 void add_grid(Fingerprint& f, const Grid& grid) {

@@ -24,8 +24,7 @@ bool MovingSurface::advance(std::int64_t steps, double time) {
   return fair_now || grown;
 }
 
-std::vector<Point> MovingSurface::points() const {
-  std::vector<Point> points = fairing_ ? fairing_->points() : still_;
+std::vector<Point> MovingSurface::grown(std::vector<Point> points) const {
   if (scale_ == 1) return points;
   for (Point& p : points)
     for (std::size_t k = 0; k < 3; ++k) p[k] = middle_[k] + scale_ * (p[k] - middle_[k]);

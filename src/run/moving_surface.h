@@ -17,7 +17,10 @@ class MovingSurface {
   /// moved. Called again for a shorter step it goes to the earlier time.
   bool advance(std::int64_t steps, double time);
   /// The vertices of the shape now [world units].
-  std::vector<Point> points() const;
+  std::vector<Point> points() const { return grown(faired()); }
+  /// The same without growth, and points with it.
+  std::vector<Point> faired() const { return fairing_ ? fairing_->points() : still_; }
+  std::vector<Point> grown(std::vector<Point> points) const;
   /// Null when the surface is not faired.
   const Fairing* fairing() const { return fairing_.get(); }
 

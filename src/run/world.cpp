@@ -2,6 +2,7 @@
 
 #include "pelage/error.h"
 #include "run/stage_progress.h"
+#include "shape/tet_mesh.h"
 
 namespace pelage {
 
@@ -10,14 +11,29 @@ namespace {
 /// A finer mesh would need more than the memory of common machines: about 2 kB per Loop vertex.
 constexpr std::size_t max_triangles = 8'000'000;
 
+std::shared_ptr<const TetMesh> volume_of(const Program& program) {
+  const auto* volume = as<TetMesh>(program.nodes);
+  return volume ? std::shared_ptr<const TetMesh>(program.nodes, volume) : nullptr;
+}
+
+/// What is faired.
+std::shared_ptr<const TriangleMesh> surface_of(const Program& program) {
+  const auto volume = volume_of(program);
+  if (!volume) return program.shape;
+  return volume->surface ? volume->surface : std::make_shared<const TriangleMesh>(skin_mesh(*volume));
+}
+
 }  // namespace
 
 World::World(std::shared_ptr<const Program> program, const Progress& progress) : program_(std::move(program)) {
   const TriangleMesh& shape = *program_->shape;
-  if (program_->motion.any()) surface_ = std::make_unique<MovingSurface>(shape, program_->motion);
+  surface_ = unmoved_surface();
   report(progress, "refining", 0);
   if (program_->nodes) {
     space_ = program_->method->make_node_space(*program_->nodes);
+    if (program_->motion.fair)
+      inside_ =
+          std::make_shared<const HarmonicVolume>(volume_of(*program_), surface_of(*program_), space_->stiffness());
     return;
   }
   auto hierarchy =
@@ -77,8 +93,20 @@ World World::unmoved() const {
   copy.hierarchy_ = hierarchy_;
   copy.mesh_ = mesh_;
   copy.control_ = initial_control_.empty() || !mesh_ ? control_ : initial_control_;
-  if (surface_) copy.surface_ = std::make_unique<MovingSurface>(*program_->shape, program_->motion);
+  copy.surface_ = copy.unmoved_surface();
+  copy.inside_ = inside_;
   return copy;
+}
+
+std::unique_ptr<MovingSurface> World::unmoved_surface() const {
+  if (!program_ || !program_->motion.any()) return nullptr;
+  // Growth alone takes all vertices along.
+  return std::make_unique<MovingSurface>(program_->motion.fair ? *surface_of(*program_) : *program_->shape,
+                                         program_->motion);
+}
+
+std::vector<Point> World::moved_points() const {
+  return inside_ ? surface_->grown(inside_->points(surface_->faired())) : surface_->points();
 }
 
 const std::vector<Point>& World::points() const {
@@ -92,21 +120,21 @@ std::vector<Point> World::initial_positions(SampleRule rule) const {
 
 bool World::follow(std::int64_t steps, double time) {
   if (!surface_ || !surface_->advance(steps, time)) return false;
-  place(surface_->points());
+  place(moved_points());
   return true;
 }
 
 void World::place(std::vector<Point> points) {
   if (initial_control_.empty()) initial_control_ = control();
   points_ = std::move(points);
-  std::vector<Point> control = hierarchy_->refined(coarse_control(points_), 0, levels());
+  std::vector<Point> control = hierarchy_ ? hierarchy_->refined(coarse_control(points_), 0, levels()) : points_;
   space_ = space_->moved(space_control(control));
   if (mesh_) control_ = std::move(control);
 }
 
 void World::restore(MovingSurface::State state) {
   surface_->restore(std::move(state));
-  place(surface_->points());
+  place(moved_points());
 }
 
 }  // namespace pelage

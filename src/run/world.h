@@ -6,6 +6,7 @@
 
 #include "discretise/simulation_mesh.h"
 #include "pelage/progress.h"
+#include "run/harmonic_volume.h"
 #include "run/moving_surface.h"
 #include "run/program.h"
 
@@ -36,7 +37,7 @@ class World {
   std::vector<Tensor> at_nodes(const std::vector<Tensor>& at_vertices) const;
   VertexAttributes at_nodes(const Texture& texture) const;
 
-  /// Null when the surface stays where it is.
+  /// Null when the surface stays where it is. In a volume it is the one that this fills, or its skin.
   const MovingSurface* surface() const { return surface_.get(); }
   /// The vertices of the shape now [world units]; none without a mesh.
   const std::vector<Point>& points() const;
@@ -54,6 +55,9 @@ class World {
   void restore(MovingSurface::State state);
 
  private:
+  std::unique_ptr<MovingSurface> unmoved_surface() const;
+  /// The vertices of the shape where the surface takes them.
+  std::vector<Point> moved_points() const;
   std::vector<Point> coarse_control(std::vector<Point> points) const;
   /// What makes the space, of control points at the finest level.
   std::vector<Point> space_control(const std::vector<Point>& control) const {
@@ -65,6 +69,7 @@ class World {
   std::shared_ptr<const SimulationMesh> mesh_;
   std::vector<Point> control_;  ///< with a simulation mesh
   std::unique_ptr<MovingSurface> surface_;
+  std::shared_ptr<const HarmonicVolume> inside_;  ///< of a volume that is faired
   std::shared_ptr<const Space> space_;
   // Of a surface that has moved:
   std::vector<Point> points_, initial_control_;

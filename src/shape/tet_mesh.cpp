@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shape/numbered_mesh.h"
+
 namespace pelage {
 
 namespace {
@@ -57,6 +59,13 @@ TriangleMesh mesh_of(const TetMesh& volume) {
     mesh.triangles.push_back(
         turned(volume.tets[static_cast<std::size_t>(side.tet)], static_cast<std::size_t>(side.corner)));
   return mesh;
+}
+
+TriangleMesh skin_mesh(const TetMesh& volume) {
+  NumberedMesh skin{mesh_of(volume), {}, {}};
+  skin.vertex_number.resize(skin.mesh.points.size());
+  drop_unused_vertices(skin);
+  return std::move(skin.mesh);
 }
 
 std::vector<std::uint8_t> skin_sides(const TetMesh& volume) {
