@@ -12,7 +12,7 @@ ORDER = "base < linalg shape react recipe < discretise io < time fair direction 
 RANK = {layer: rank for rank, group in enumerate(ORDER.split("<")) for layer in group.split()}
 
 # The public headers belong to the layer that implements them.
-PUBLIC = {"error": "base", "point": "base", "progress": "base", "triangle_mesh": "shape", "polygon_mesh": "shape",
+PUBLIC = {"error": "base", "channel": "base", "point": "base", "progress": "base", "triangle_mesh": "shape", "polygon_mesh": "shape",
           "up_axis": "shape", "image": "shape", "grid": "shape", "atlas": "shape", "cells": "shape",
           "tet_mesh": "shape", "node_shape": "shape",
           "finding": "shape", "stability": "react", "recipe": "recipe", "io": "io", "fair": "fair", "field": "direction",

@@ -264,6 +264,27 @@ void require_sheet(const ShapeFile& file) {
     throw Error(Fault::usage, "--height-map is for sheets of grids, a pixel for each node; a block has no height");
 }
 
+/// What the look says of the height, or else the shown species.
+void write_relief(const Grid& sheet, const CoatFields& fields, const Look& look, const std::string& path,
+                  GrowReport& report) {
+  const Paint paint = resolve_paint(look, fields.species);
+  if (!paint.channels.contains(Channel::height)) {
+    save_height_map(sheet, fields.coefficients[paint.shown], path);
+    return report.file(path);
+  }
+  const CoatSamples nodes = samples_at_nodes(fields, tessellation_request(look, paint));
+  const std::vector<double> height = channel_values(nodes, paint, Channel::height);
+  save_height_map(sheet, height, path);
+  const auto [low, high] = std::ranges::minmax(height);
+  report.file(path, "black is " + number(low) + " and white " + number(high) + " above the sheet");
+}
+
+TriangleMesh dressed(const CoatFields& fields, const Look& look, const Paint& paint, GrowReport& report) {
+  Tessellation t = tessellate(fields, tessellation_request(look, paint));
+  for (const std::string& line : clamped_channels(t.samples, paint)) report.warning(line);
+  return dress(std::move(t), paint, fields.uniform);
+}
+
 /// As high as it may be; nodes become blocks of pixels where there is room.
 Image space_time_plot(const SpaceTime& plot, const Run& run, const Look& look, int size) {
   const int across = std::max(1, size / static_cast<int>(run.space().unknowns()));
@@ -305,18 +326,14 @@ Grown grown_coat(const GrowOptions& options, const Plan& planned, const Look& lo
     report.file(options.plot);
   }
   if (look.keep_shape) report.coarseness(run);
-  if (!options.height_map.empty()) {
-    const std::size_t shown = resolve_paint(look, fields.species).shown;
-    save_height_map(*as<Grid>(file.nodes), fields.coefficients[shown], options.height_map);
-    report.file(options.height_map);
-  }
+  if (!options.height_map.empty()) write_relief(*as<Grid>(file.nodes), fields, look, options.height_map, report);
   Grown grown{{}, {}, {}, shape_of(run.program()), resolve_paint(look, fields.species), fields.nodes, {}};
   own.reset();
   if (only_images(options, look) && is_bare_sheet(fields)) {
     grown.image = sheet_image(fields, look);
     return grown;
   }
-  grown.coat = dress(fields, look);
+  grown.coat = dressed(fields, look, grown.paint, report);
   if (textured) grown.texture = patch_texture(fields, look, texture_size(options));
   if (options.bake && textured) grown.coat = with_uv(std::move(grown.coat), *grown.texture);
   if (!is_volume(fields.nodes.get())) return grown;

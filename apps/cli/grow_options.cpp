@@ -64,6 +64,13 @@ std::string quality_choices() {
   return text;
 }
 
+std::string channel_choices() {
+  std::string text;
+  for (const ChannelKind& kind : channel_kinds)
+    text += (text.empty() ? ": " : ", ") + std::string(kind.name) + " (" + std::string(kind.meaning) + ")";
+  return text;
+}
+
 void add_pattern_options(CLI::App& app, GrowOptions& o) {
   const std::string group = "Pattern";
   app.add_option("--model", o.model, "MODEL, MODEL:VARIANT or a .toml file (default: turing); see pelage models")
@@ -187,6 +194,11 @@ void add_look_options(CLI::App& app, GrowOptions& o) {
       ->group(group);
   app.add_option("--ramp", o.ramp, "Colours (default: tawny)" + choices(ramp_names()))->type_name("NAME")->group(group);
   app.add_flag("--invert", o.invert, "Exchange the ends of the ramp")->group(group);
+  app.add_option("--material", o.channels,
+                 "What the coat is like beside its colour, a formula as in layers of recipes" + channel_choices())
+      ->type_name("CHANNEL=FORMULA")
+      ->allow_extra_args(false)
+      ->group(group);
   app.add_flag("--keep-shape", o.keep_shape,
                "Give back the shape as it is, its own vertices and faces in their order with all that the file says of "
                "them, coloured at the vertices, instead of the smooth surface")
@@ -222,9 +234,10 @@ void add_file_options(CLI::App& app, GrowOptions& o, const std::string& group) {
   app.add_option("--patch-images", o.patch_images, "Of patches: folder for an image of each, PATCH.png")
       ->type_name("FOLDER")
       ->group(group);
-  app.add_option("--height-map", o.height_map,
-                 "Of a sheet: file for the shown species as a relief, .png of 16-bit grey, its lowest value black and "
-                 "its highest white")
+  app.add_option(
+         "--height-map", o.height_map,
+         "Of a sheet: file for its height, or else the shown species, as a relief: .png of 16-bit grey, the lowest "
+         "value black and the highest white")
       ->type_name("FILE")
       ->group(group);
 }
@@ -371,6 +384,16 @@ void apply_texture(const std::string& text, std::vector<TextureFile>& textures) 
   textures.push_back({{name, {"--texture"}}, file});
 }
 
+/// --material CHANNEL=FORMULA, instead of the recipe's.
+void apply_channel(const std::string& text, Look& look) {
+  const auto [name, formula] = sides("--material", text, "CHANNEL=FORMULA, for example roughness=0.3");
+  std::vector<std::string> known;
+  for (const ChannelKind& kind : channel_kinds) known.emplace_back(kind.name);
+  const auto found = std::ranges::find(known, name);
+  if (found == known.end()) throw Error(Fault::usage, "--material: " + unknown_name("channel", name, known));
+  look.channels[channel_kinds[static_cast<std::size_t>(found - known.begin())].channel] = {formula, {"--material"}};
+}
+
 /// The size of the first stage; those of the others keep their proportion to it.
 void apply_size(const Length& size, std::vector<Stage>& stages) {
   if (stages.size() == 1) stages[0].unit.reset();
@@ -426,6 +449,7 @@ void apply(const GrowOptions& o, Motion& motion) {
 void apply(const GrowOptions& o, Look& look) {
   if (o.species) look.species = {*o.species, {}};
   override(o.ramp, look.ramp);
+  for (const std::string& text : o.channels) apply_channel(text, look);
   look.invert |= o.invert;
   look.keep_shape |= o.keep_shape;
   look.flat |= o.flat;

@@ -19,6 +19,7 @@ struct GrowOptions {
   std::vector<std::string> settings;  ///< "PARAM=VALUE" or "STAGE.PARAM=VALUE"
   std::vector<std::string> maps;      ///< "PARAM=FORMULA", likewise
   std::vector<std::string> textures;  ///< "NAME=FILE"
+  std::vector<std::string> channels;  ///< "CHANNEL=FORMULA"
   std::optional<double> input_unit;   ///< metres
   std::optional<double> step, until, stationary, growth;
   std::optional<std::int64_t> steps, every;

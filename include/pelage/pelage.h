@@ -3,6 +3,7 @@
 // others pelage::pelage.
 
 #include "pelage/analyse.h"
+#include "pelage/channel.h"
 #include "pelage/error.h"
 #include "pelage/fair.h"
 #include "pelage/field.h"

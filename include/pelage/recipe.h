@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "pelage/channel.h"
 #include "pelage/error.h"
 #include "pelage/point.h"
 
@@ -130,8 +131,10 @@ inline constexpr int most_detail = 10;
 struct Look {
   std::optional<Given<std::string>> species;  ///< which one is shown; default: the last
   Given<std::string> ramp{"tawny", {}};
-  bool invert = false;        ///< exchange the ends of the ramp
-  std::vector<Layer> layers;  ///< painted over it, the first one lowest
+  bool invert = false;                             ///< exchange the ends of the ramp
+  std::vector<Layer> layers;                       ///< painted over it, the first one lowest
+  std::map<Channel, Given<std::string>> channels;  ///< formulas that know what those of layers know; lengths in sizes
+                                                   ///< of the finest pattern
   bool keep_shape = false;    ///< the input as it is: its own vertices and flat triangles, never split
   bool flat = false;          ///< the input's flat triangles instead of the limit surface, split as the detail says
   bool fields = true;         ///< the coat carries the species as attributes, beside its colours

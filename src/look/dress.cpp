@@ -28,6 +28,7 @@ class CoatNames {
     for (const Attribute& a : attributes) given_.insert(a.name);
     for (std::size_t i = 0; paint.fields && i < paint.species.size(); ++i)
       own_.insert(attribute_name(paint.species[i]));
+    for (const auto& [channel, formula] : paint.channels) own_.emplace(kind_of(channel).attribute);
   }
   /// What makes room takes the place of another, which makes room in turn.
   bool in_the_way(const std::string& name) const {
@@ -57,13 +58,18 @@ TriangleMesh dress(Tessellation t, const Paint& paint, const std::vector<char>& 
 TriangleMesh dress(Tessellation t, const Palette& palette) {
   std::vector<double> color = pelage::paint(t.samples, palette);
   const Paint& paint = palette.paint;
+  std::vector<Attribute> channels;
+  for (const auto& [channel, formula] : paint.channels)
+    channels.push_back(
+        {std::string(kind_of(channel).attribute), 1, Domain::vertex, channel_values(t.samples, paint, channel)});
   rename_input(t.attributes, paint);
   TriangleMesh mesh{std::move(t.samples.position), std::move(t.triangles), {}, std::move(t.links), t.metres_per_unit};
   mesh.set({"normal", 3, Domain::vertex, flattened(t.samples.normal)});
   mesh.set({"color", 3, Domain::vertex, std::move(color)});
   for (std::size_t i = 0; paint.fields && i < t.samples.fields.size(); ++i)
     mesh.set({attribute_name(paint.species[i]), 1, Domain::vertex, std::move(t.samples.fields[i])});
-  for (Attribute& a : t.attributes) mesh.set(std::move(a));
+  for (auto* more : {&channels, &t.attributes})
+    for (Attribute& a : *more) mesh.set(std::move(a));
   return mesh;
 }
 

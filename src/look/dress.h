@@ -6,11 +6,12 @@
 namespace pelage {
 
 /// Attributes of the shape make room for those of the coat: "color" and, where the paint has the fields in it, what is
-/// called as they are become "input_NAME". What was called so before gets another "input_" in front.
+/// called as they are become "input_NAME"; and those of its channels. What was called so before gets another "input_"
+/// in front.
 void rename_input(std::vector<Attribute>& attributes, const Paint& paint);
 
-/// The tessellation with "normal" (unit), "color" (linear light), one attribute per species if the paint has them in
-/// it, and the attributes and links of the shape. `uniform` as in CoatFields.
+/// The tessellation with "normal" (unit), "color" (linear light), what the paint says of channels, one attribute per
+/// species if the paint has them in it, and the attributes and links of the shape. `uniform` as in CoatFields.
 TriangleMesh dress(Tessellation tessellation, const Paint& paint, const std::vector<char>& uniform);
 
 /// The same in the colours of a palette.

@@ -1,7 +1,9 @@
 #include "look/palette.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "base/number.h"
 #include "base/parallel.h"
 #include "base/quantile.h"
 #include "base/suggest.h"
@@ -68,6 +70,22 @@ Places places_of(const CoatSamples& s, const std::vector<std::string>& species) 
   return places;
 }
 
+/// The samples as formulas see them. Random fields are drawn where the samples were at first.
+struct SamplePlaces {
+  SamplePlaces(const CoatSamples& samples, const Paint& paint) : places(places_of(samples, paint.species)) {
+    if (samples.drawn_at.empty()) return;
+    Places drawn_at = places;
+    drawn_at.positions = samples.drawn_at;
+    drawn = draw_random_fields(paint.symbols(), drawn_at, samples.seed);
+    places.drawn = drawn;
+  }
+  SamplePlaces(const SamplePlaces&) = delete;
+  SamplePlaces& operator=(const SamplePlaces&) = delete;
+
+  Places places;
+  std::vector<DrawnField> drawn;
+};
+
 std::vector<double> ramp_colors(const std::vector<double>& field, const Palette& palette) {
   const double low = palette.low, high = palette.high;
   std::vector<double> values(3 * field.size());
@@ -96,14 +114,28 @@ void paint_layer(const PaintLayer& layer, const Places& places, std::uint64_t se
   });
 }
 
+/// Before they are clamped, lengths in sizes of the pattern.
+std::vector<double> raw_channel(const CoatSamples& samples, const Paint& paint, Channel channel) {
+  const ChannelFormula& formula = paint.channels.at(channel);
+  std::vector<double> values = formula.value.at(SamplePlaces(samples, paint).places, samples.seed);
+  for (const double x : values)
+    if (!std::isfinite(x))
+      throw Error(Fault::numerics, "the " + std::string(kind_of(channel).name) + " is " + number(x) + " somewhere",
+                  formula.where);
+  return values;
+}
+
 }  // namespace
 
 std::vector<Symbol> Paint::symbols() const {
   std::vector<Symbol> all;
+  const auto add = [&](const PlaceFormula& formula) {
+    for (Symbol& s : formula.symbols()) all.push_back(std::move(s));
+  };
   for (const PaintLayer& layer : layers)
     for (const auto* formula : {&layer.value, &layer.opacity})
-      if (*formula)
-        for (Symbol& s : (*formula)->symbols()) all.push_back(std::move(s));
+      if (*formula) add(**formula);
+  for (const auto& [channel, formula] : channels) add(formula.value);
   return all;
 }
 
@@ -112,6 +144,8 @@ Paint resolve_paint(const Look& look, std::vector<std::string> species) {
     throw Error(Fault::usage, unknown_name("ramp", look.ramp.value, ramp_names()), look.ramp.where);
   Paint paint{std::move(species), 0, RampTable(named_ramp(look.ramp.value)), look.invert, look.fields, {}};
   for (const Layer& layer : look.layers) paint.layers.push_back(resolve_layer(layer, paint.species));
+  for (const auto& [channel, text] : look.channels)
+    paint.channels.emplace(channel, ChannelFormula{layer_formula(text, paint.species), text.where});
   paint.shown = shown_species(paint.species, look);
   return paint;
 }
@@ -129,16 +163,30 @@ Palette make_palette(Paint paint, const CoatSamples& samples, const std::vector<
 std::vector<double> paint(const CoatSamples& samples, const Palette& palette) {
   std::vector<double> colors = ramp_colors(samples.fields[palette.paint.shown], palette);
   if (palette.paint.layers.empty()) return colors;
-  Places places = places_of(samples, palette.paint.species);
-  std::vector<DrawnField> drawn;
-  if (!samples.drawn_at.empty()) {
-    Places drawn_at = places;
-    drawn_at.positions = samples.drawn_at;
-    drawn = draw_random_fields(palette.paint.symbols(), drawn_at, samples.seed);
-  }
-  places.drawn = drawn;
-  for (const PaintLayer& layer : palette.paint.layers) paint_layer(layer, places, samples.seed, colors);
+  const SamplePlaces at(samples, palette.paint);
+  for (const PaintLayer& layer : palette.paint.layers) paint_layer(layer, at.places, samples.seed, colors);
   return colors;
+}
+
+std::vector<double> channel_values(const CoatSamples& samples, const Paint& paint, Channel channel) {
+  const ChannelKind& kind = kind_of(channel);
+  const double unit = kind.length ? samples.wavelength : 1;
+  std::vector<double> values = raw_channel(samples, paint, channel);
+  for (double& x : values) x = unit * std::clamp(x, kind.low, kind.high);
+  return values;
+}
+
+std::vector<std::string> clamped_channels(const CoatSamples& samples, const Paint& paint) {
+  std::vector<std::string> lines;
+  for (const auto& [channel, formula] : paint.channels) {
+    const ChannelKind& kind = kind_of(channel);
+    const auto [low, high] = std::ranges::minmax(raw_channel(samples, paint, channel));
+    if (low >= kind.low && high <= kind.high) continue;
+    const std::string was = low == high ? " is " + number(low) : " runs from " + number(low) + " to " + number(high);
+    lines.push_back("the " + std::string(kind.name) + was + "; it was clamped to " +
+                    (kind.high < no_bound ? "0 to 1" : "0 and more"));
+  }
+  return lines;
 }
 
 }  // namespace pelage

@@ -2,12 +2,14 @@
 // From the values of fields to colours: what a look says, with its names resolved; the same with its ranges fixed; and
 // the one function that paints samples with it.
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "look/ramp.h"
 #include "look/samples.h"
+#include "pelage/channel.h"
 #include "pelage/recipe.h"
 #include "react/place_formula.h"
 
@@ -22,6 +24,12 @@ struct PaintLayer {
   std::optional<PlaceFormula> opacity;  ///< 0..1; default 1
 };
 
+/// What is said of a channel.
+struct ChannelFormula {
+  PlaceFormula value;
+  Location where;
+};
+
 struct Paint {
   std::vector<std::string> species;  ///< of the fields, "STAGE.SPECIES" those of earlier stages
   std::size_t shown = 0;             ///< the one whose values the ramp shows
@@ -29,15 +37,17 @@ struct Paint {
   bool invert = false;
   bool fields = true;              ///< whether the coat carries the species as attributes
   std::vector<PaintLayer> layers;  ///< the first one lowest
+  std::map<Channel, ChannelFormula> channels = {};
 
-  /// What the layers read from the place, species and fields included.
+  /// What layers and channels read from the place, species and fields included.
   std::vector<Symbol> symbols() const;
 };
 
 /// By which layers know an attribute of the shape that is called like a species, and by which files of a coat hold it.
 inline std::string input_name(const std::string& name) { return "input_" + name; }
 
-/// Error(Fault::usage), located, for an unknown species, ramp or colour and for faults in the formulas of layers.
+/// Error(Fault::usage), located, for an unknown species, ramp or colour and for faults in the formulas of layers and
+/// channels.
 Paint resolve_paint(const Look& look, std::vector<std::string> species);
 
 /// A paint with the ends of its ramp: samples with these values get the ends' colours.
@@ -52,5 +62,12 @@ Palette make_palette(Paint paint, const CoatSamples& samples, const std::vector<
 
 /// Colours of the samples, 3 each, linear light. Error(Fault::usage), located, where they lack what a layer reads.
 std::vector<double> paint(const CoatSamples& samples, const Palette& palette);
+
+/// What a channel of the paint is at the samples, lengths in world units; beyond its range it is clamped. Error,
+/// located, where they lack what the formula reads (Fault::usage) or it is not a number (Fault::numerics).
+std::vector<double> channel_values(const CoatSamples& samples, const Paint& paint, Channel channel);
+
+/// A line for each channel that is out of its range, with the values that it had.
+std::vector<std::string> clamped_channels(const CoatSamples& samples, const Paint& paint);
 
 }  // namespace pelage

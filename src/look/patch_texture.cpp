@@ -173,6 +173,7 @@ void turn_to_outside(const Atlas::Patch& patch, CoatSamples& s) {
 CoatSamples empty_like(const CoatSamples& s) {
   CoatSamples empty;
   empty.length_unit = s.length_unit;
+  empty.wavelength = s.wavelength;
   empty.origin = s.origin;
   empty.period = s.period;
   empty.seed = s.seed;

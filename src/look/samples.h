@@ -16,6 +16,7 @@ struct CoatSamples {
   VertexAttributes attributes;              ///< of the shape and its textures, as formulas know them
   std::vector<Point> drawn_at;              ///< initial places, of a surface that has moved; otherwise empty
   double length_unit = 1;                   ///< world length of a model length unit
+  double wavelength = 1;                    ///< of the finest pattern [world units]
   Point origin{};                           ///< from where random fields count
   Point period{};                           ///< after which smooth ones repeat; 0: never
   std::uint64_t seed = 1;                   ///< of random fields

@@ -34,6 +34,7 @@ CoatSamples samples_of(const CoatFields& fields, const Grid& grid, bool curvatur
     band.insert(band.end(), {field[0], field[last]});
   }
   s.length_unit = fields.length_unit;
+  s.wavelength = fields.wavelength;
   s.origin = fields.origin;
   s.period = fields.period;
   s.seed = fields.seed;

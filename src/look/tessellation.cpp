@@ -88,6 +88,7 @@ void take_rest(const CoatFields& fields, const TriangleMesh& shape, const Tessel
   t.metres_per_unit = shape.metres_per_unit;
   if (request.attributes) t.samples.attributes = layer_attributes(fields.textures, t);
   t.samples.length_unit = fields.length_unit;
+  t.samples.wavelength = fields.wavelength;
   t.samples.origin = fields.origin;
   t.samples.period = fields.period;
   t.samples.seed = fields.seed;
@@ -193,7 +194,7 @@ TessellationRequest tessellation_request(const Look& look, const Paint& paint) {
       std::ranges::any_of(paint.symbols(), [](const Symbol& s) { return s.kind == Symbol::Kind::curvature; });
   TessellationRequest request = tessellation_request(look);
   request.curvature = curvature;
-  request.attributes = !paint.layers.empty();
+  request.attributes = !paint.layers.empty() || !paint.channels.empty();
   return request;
 }
 

@@ -51,7 +51,8 @@ LightTracer::Sender LightTracer::sender_of(const Vector3f& origin, const Vector3
   if (const auto hit = scene_.intersect(origin, direction)) {
     const float cosine = hit->normal.dot(to_key);
     const bool lit = cosine > 0 && !scene_.occluded(hit->lifted, to_key);
-    return {studio_.bounced(hit->color, lit ? cosine : 0), (hit->position - origin).norm()};
+    const float glow = scene_.finish(hit->hit).emission;
+    return {studio_.bounced(hit->color, lit ? cosine : 0) + glow * hit->color, (hit->position - origin).norm()};
   }
   if (direction.y() >= 0) return {studio_.room(direction)};
   const Vector3f floor = origin - direction * (origin.y() / direction.y());

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "render/gloss.h"
 #include "render/sampler.h"
+#include "render/sampler.h"
 
 namespace pelage {
 
@@ -87,6 +88,7 @@ struct Painter::Fragment {
   Vector3f direction;
   LightGuide guide;
   Vector3f color, normal, view;  ///< sums over the rays; view: their directions
+  Finish finish;                 ///< likewise
   float rays = 1;
 };
 
@@ -94,14 +96,16 @@ struct Painter::View {
   std::vector<Fragment> fragments;  // nearly always one
   float missed = 0;                 // rays
 
-  void add(const Hit& hit, const Vector3f& direction, const Vector3f& color, const LightGuide& guide) {
+  void add(const Hit& hit, const Vector3f& direction, const Vector3f& color, const LightGuide& guide,
+           const Finish& finish) {
     constexpr float alike = 0.3F;
     for (Fragment& f : fragments)
       if (same_surface(f.guide, guide) > alike) {
         f.color += color, f.normal += guide.normal, f.view += direction, f.rays += 1;
+        f.finish.add(1, finish);
         return;
       }
-    fragments.push_back({hit, direction, guide, color, guide.normal, direction});
+    fragments.push_back({hit, direction, guide, color, guide.normal, direction, finish});
   }
 };
 
@@ -117,6 +121,7 @@ Painter::Painter(const RayScene& scene, const std::vector<Vector3f>& points, con
       pixel_size_(2 * camera_.tan_x / static_cast<float>(width_) * camera_.position.norm()),
       tracer_(scene, studio_, pixel_size_),
       samples_(studio_),
+      paths_(scene, studio_),
       floor_key_(studio_.key() * studio_.key_cosine(Vector3f::UnitY())),
       floor_light_(floor_key_ + studio_.floor_irradiance()),
       offsets_(view_offsets(rays.view)),
@@ -284,6 +289,16 @@ void Painter::light_more(Band& band, int column, int row) const {
   add_more_light(band.floor, floor);
 }
 
+bool Painter::finish_bends(const Sight& before, const Sight& here, const Sight& after) const {
+  if (scene_.plain()) return false;
+  Finish bend{0, 0, 0, 0, 0, 0};
+  for (const auto& [sight, weight] : {std::pair{&before, 1.0F}, {&here, -2.0F}, {&after, 1.0F}})
+    bend.add(weight, scene_.finish(sight->hit));
+  constexpr float most = 0.2F;
+  return std::max({std::abs(bend.roughness), std::abs(bend.metalness), std::abs(bend.opacity), std::abs(bend.emission),
+                   std::abs(bend.transmission)}) > most;
+}
+
 /// Whether one ray may not be enough for a pixel: at edges of the object and of its pattern.
 bool Painter::is_rough(const Band& band, int x, int y) const {
   if (rays_.view == 1) return false;
@@ -293,7 +308,7 @@ bool Painter::is_rough(const Band& band, int x, int y) const {
     if (!band.contains(x - i, y - j) || !band.contains(x + i, y + j)) continue;
     const Sight &before = band.sight(x - i, y - j), &after = band.sight(x + i, y + j);
     if (before.seen() != here.seen() || after.seen() != here.seen()) return true;
-    if (here.seen() && bends(before, here, after)) return true;
+    if (here.seen() && (bends(before, here, after) || finish_bends(before, here, after))) return true;
   }
   return false;
 }
@@ -312,7 +327,7 @@ Painter::View Painter::full_view(int x, int y) const {
         continue;
       }
       const Skin skin = scene_.skin(directions[k], hits[k]);
-      view.add(hits[k], directions[k], skin.color, guide(skin, hits[k]));
+      view.add(hits[k], directions[k], skin.color, guide(skin, hits[k]), scene_.finish(hits[k]));
     }
   }
   return view;
@@ -343,14 +358,40 @@ Light Painter::own_light(const Place& place) const {
 }
 
 Vector3f Painter::coat_color(const Band& band, const Fragment& f, int x, int y) const {
-  const Vector3f color = f.color / f.rays, normal = f.normal.normalized(), view = f.view.normalized();
   Light light = light_at(band.coat, x, y - band.first, &f.guide);
   if (!light.traced()) light = own_light({y, x, 0, f.direction, surface_point(f.hit, f.direction), false});
+  return scene_.plain() ? plain_color(f, light) : finished_color(band, f, light, x, y);
+}
+
+Vector3f Painter::plain_color(const Fragment& f, const Light& light) const {
+  const Vector3f color = f.color / f.rays, normal = f.normal.normalized(), view = f.view.normalized();
   const float mirrored = sheen(-normal.dot(view));
   const Vector3f sent_on = (1 - mirrored) * color + Vector3f::Constant(mirrored);
   const Vector3f key = light.visible_key() * studio_.key_cosine(normal) * color +
                        Vector3f::Constant(light.visible_gloss() * gloss(normal, -view));
   return studio_.key().cwiseProduct(key) + sent_on.cwiseProduct(studio_.open_irradiance(normal) + light.room);
+}
+
+/// What the surface scatters is a matter of the smoothed light, what it mirrors and lets through one of paths.
+Vector3f Painter::finished_color(const Band& band, const Fragment& f, const Light& light, int x, int y) const {
+  const Vector3f color = f.color / f.rays, normal = f.normal.normalized(), view = f.view.normalized();
+  Finish finish{0, 0, 0, 0, 0, 0};
+  finish.add(1 / f.rays, f.finish);
+  const Reflection surface(color, finish);
+  const float opaque = finish.opaque(), share = 1 / static_cast<float>(rays_.view);
+  const Vector3f even =
+      light.visible_key() * studio_.key_cosine(normal) * studio_.key() + studio_.open_irradiance(normal) + light.room;
+  Vector3f sum = finish.opacity * finish.emission * color +
+                 opaque * surface.scattered(std::max(0.0F, -normal.dot(view))).cwiseProduct(even);
+  const Vector3f behind = opaque < 1 ? paper_color(band, x, y) : Vector3f(0, 0, 0);
+  const SurfacePoint point = surface_point(f.hit, f.direction);
+  const std::uint32_t number = z_order(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+  for (std::uint32_t k = 0; k < rays_.view; ++k) {
+    PathNumbers random(number * rays_.view + k);
+    if (opaque > 0) sum += opaque * share * paths_.mirrored(point, surface, f.direction, random);
+    if (opaque < 1) sum += (1 - opaque) * share * paths_.through(point, finish, f.direction, behind, random);
+  }
+  return sum;
 }
 
 Vector3f Painter::paper_color(const Band& band, int x, int y) const {
@@ -386,7 +427,9 @@ Vector3f Painter::middle_color(const Band& band, int x, int y) const {
   const Sight& sight = band.sight(x, y);
   if (!sight.seen()) return paper_color(band, x, y);
   const Vector3f view = direction(x, y);
-  return coat_color(band, {sight.hit, view, sight.guide, blurred_coat(band, x, y), sight.guide.normal, view}, x, y);
+  const Fragment fragment{
+      sight.hit, view, sight.guide, blurred_coat(band, x, y), sight.guide.normal, view, scene_.finish(sight.hit)};
+  return coat_color(band, fragment, x, y);
 }
 
 Vector3f Painter::mean_color(const Band& band, int x, int y) const {

@@ -13,6 +13,7 @@
 #include "pelage/render.h"
 #include "render/camera.h"
 #include "render/light_tracer.h"
+#include "render/paths.h"
 #include "render/ray_scene.h"
 #include "render/smooth_light.h"
 #include "render/studio.h"
@@ -90,6 +91,9 @@ class Painter {
   Eigen::Vector3f mean_color(const Band& band, int x, int y) const;
   Light own_light(const Place& place) const;
   Eigen::Vector3f coat_color(const Band& band, const Fragment& fragment, int x, int y) const;
+  Eigen::Vector3f plain_color(const Fragment& fragment, const Light& light) const;
+  Eigen::Vector3f finished_color(const Band& band, const Fragment& fragment, const Light& light, int x, int y) const;
+  bool finish_bends(const Sight& before, const Sight& here, const Sight& after) const;
   Eigen::Vector3f paper_color(const Band& band, int x, int y) const;
   float gloss(const Eigen::Vector3f& normal, const Eigen::Vector3f& view) const;
   bool reaches_floor(const Eigen::Vector3f& direction, Eigen::Vector3f& place) const;
@@ -109,6 +113,7 @@ class Painter {
   float pixel_size_;  ///< at the object
   LightTracer tracer_;
   LightSamples samples_;
+  Paths paths_;
   Eigen::Vector3f floor_key_, floor_light_;  ///< in the open: of the key lamp, and in all
   std::vector<Eigen::Vector2f> offsets_;     ///< of the view rays from the middle of a pixel, in pixels
   std::vector<float> dither_;

@@ -30,20 +30,28 @@ Eigen::AlignedBox3d joined(std::size_t n, const Extend& extend) {
   return box;
 }
 
-/// The object turned upright, scaled to a bounding sphere of diameter 1 and put on the ground y = 0.
-std::vector<Vector3f> stand_upright(const TriangleMesh& mesh, const Eigen::Matrix3d& rotation) {
-  const auto turned = [&](std::size_t v) -> Eigen::Vector3d {
-    return rotation * Eigen::Map<const Eigen::Vector3d>(mesh.points[v].data());
-  };
-  const Eigen::AlignedBox3d box = joined(mesh.triangles.size(), [&](std::size_t i, Eigen::AlignedBox3d& part) {
-    for (std::int32_t v : mesh.triangles[i]) part.extend(turned(static_cast<std::size_t>(v)));
+Eigen::Vector3d turned(const TriangleMesh& mesh, const Eigen::Matrix3d& rotation, std::size_t v) {
+  return rotation * Eigen::Map<const Eigen::Vector3d>(mesh.points[v].data());
+}
+
+/// Around the object turned upright.
+Eigen::AlignedBox3d upright_box(const TriangleMesh& mesh, const Eigen::Matrix3d& rotation) {
+  Eigen::AlignedBox3d box = joined(mesh.triangles.size(), [&](std::size_t i, Eigen::AlignedBox3d& part) {
+    for (std::int32_t v : mesh.triangles[i]) part.extend(turned(mesh, rotation, static_cast<std::size_t>(v)));
   });
   const double size = box.isEmpty() ? 0 : box.diagonal().norm();
   if (!(size > 0) || !std::isfinite(size)) throw Error(Fault::input, "the mesh has no extent; there is nothing to see");
+  return box;
+}
+
+/// The object turned upright, scaled to a bounding sphere of diameter 1 and put on the ground y = 0.
+std::vector<Vector3f> stand_upright(const TriangleMesh& mesh, const Eigen::Matrix3d& rotation,
+                                    const Eigen::AlignedBox3d& box) {
+  const double size = box.diagonal().norm();
   const Eigen::Vector3d foot(box.center().x(), box.min().y(), box.center().z());
   std::vector<Vector3f> points(mesh.points.size());
   parallel_for(points.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) points[v] = ((turned(v) - foot) / size).cast<float>();
+    for (std::size_t v = begin; v < end; ++v) points[v] = ((turned(mesh, rotation, v) - foot) / size).cast<float>();
   });
   return points;
 }
@@ -61,10 +69,13 @@ Eigen::Matrix3d upright_rotation(UpAxis up) {
 struct StandingMesh {
   StandingMesh(const TriangleMesh& mesh, UpAxis up_axis, const std::function<bool(double)>& report)
       : up(up_axis),
-        points(stand_upright(mesh, upright_rotation(up))),
-        scene(mesh, points, upright_rotation(up).cast<float>(), report) {}
+        box(upright_box(mesh, upright_rotation(up))),
+        points(stand_upright(mesh, upright_rotation(up), box)),
+        scene(mesh, points, upright_rotation(up).cast<float>(), report, static_cast<float>(1 / box.diagonal().norm())) {
+  }
 
   UpAxis up;
+  Eigen::AlignedBox3d box;
   std::vector<Vector3f> points;
   RayScene scene;
 };

@@ -5,12 +5,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
 #include "base/parallel.h"
+#include "base/random.h"
 #include "pelage/error.h"
+#include "shape/relief.h"
 
 namespace pelage {
 
@@ -38,6 +41,51 @@ std::vector<Vector3f> vertex_vectors(const TriangleMesh& mesh, const char* name)
       vectors[i] = Eigen::Map<const Eigen::Vector3d>(&attribute->values[i * attribute->components]).cast<float>();
   });
   return vectors;
+}
+
+const std::vector<double>* channel(const TriangleMesh& mesh, Channel channel) {
+  const Attribute* attribute = mesh.find(kind_of(channel).attribute);
+  const bool fits = attribute && attribute->domain == Domain::vertex && attribute->components == 1;
+  return fits ? &attribute->values : nullptr;
+}
+
+/// Where the mesh has one, clamped to its range.
+void read_channel(const TriangleMesh& mesh, Channel kind, float Finish::*member, float scale,
+                  std::vector<Finish>& finishes) {
+  const std::vector<double>* values = channel(mesh, kind);
+  if (!values) return;
+  finishes.resize(mesh.points.size());
+  const double unit = kind_of(kind).length ? scale : 1;
+  for (std::size_t v = 0; v < finishes.size(); ++v)
+    finishes[v].*member = static_cast<float>(unit * std::clamp((*values)[v], kind_of(kind).low, kind_of(kind).high));
+}
+
+std::vector<Finish> finishes_of(const TriangleMesh& mesh, float scale) {
+  std::vector<Finish> finishes;
+  for (const auto& [kind, member] : {std::pair{Channel::roughness, &Finish::roughness},
+                                     {Channel::metalness, &Finish::metalness},
+                                     {Channel::opacity, &Finish::opacity},
+                                     {Channel::emission, &Finish::emission},
+                                     {Channel::transmission, &Finish::transmission},
+                                     {Channel::thickness, &Finish::thickness}})
+    read_channel(mesh, kind, member, scale, finishes);
+  return finishes;
+}
+
+/// Normals with the slopes of the heights, if there are any.
+std::vector<Vector3f> tilted_normals(const TriangleMesh& mesh) {
+  std::vector<Vector3f> normals;
+  if (const std::vector<double>* height = channel(mesh, Channel::height))
+    for (const Point& n : relief_normals(mesh, normals_of(mesh), *height))
+      normals.push_back(Eigen::Map<const Eigen::Vector3d>(n.data()).cast<float>());
+  return normals;
+}
+
+/// Even in [0, 1), and the same for the same place.
+float random_of(const Hit& hit) {
+  const std::uint64_t place =
+      (std::uint64_t{std::bit_cast<std::uint32_t>(hit.u)} << 32) | std::bit_cast<std::uint32_t>(hit.v);
+  return static_cast<float>(hash(hit.triangle, place) >> 40) * 0x1p-24F;
 }
 
 RTCRay make_ray(const Vector3f& origin, const Vector3f& direction) {
@@ -119,13 +167,23 @@ struct RayScene::Embree {
   }
 };
 
+/// Where a ray met something, and how far away.
+struct RayScene::Met {
+  Hit hit;
+  float distance = std::numeric_limits<float>::infinity();
+};
+
 RayScene::RayScene(const TriangleMesh& mesh, const std::vector<Vector3f>& points, const Eigen::Matrix3f& rotation,
-                   const std::function<bool(double)>& report)
+                   const std::function<bool(double)>& report, float scale)
     : points_(points),
       normals_(vertex_vectors(mesh, "normal")),
       colors_(vertex_vectors(mesh, "color")),
+      tilted_(tilted_normals(mesh)),
+      finishes_(finishes_of(mesh, scale)),
+      see_through_(std::ranges::any_of(finishes_, [](const Finish& f) { return f.opaque() < 1; })),
       triangles_(mesh.triangles) {
-  for (Vector3f& normal : normals_) normal = rotation * normal;
+  for (auto* normals : {&normals_, &tilted_})
+    for (Vector3f& normal : *normals) normal = rotation * normal;
   embree_ = std::make_unique<Embree>();
   // The shape of Embree's tree, and with it the choice between two triangles at a shared edge, depends on the number of
   // threads that build it.
@@ -145,7 +203,7 @@ void RayScene::intersect(const Vector3f& origin, std::span<const Vector3f> direc
   for (std::size_t i = 0; i < directions.size(); ++i) hits[i] = found(queries[i]);
 }
 
-std::optional<SurfacePoint> RayScene::intersect(const Vector3f& origin, const Vector3f& direction) const {
+std::optional<SurfacePoint> RayScene::meet(const Vector3f& origin, const Vector3f& direction) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit query = make_query(origin, direction);
@@ -155,7 +213,14 @@ std::optional<SurfacePoint> RayScene::intersect(const Vector3f& origin, const Ve
   return surface_point(skin(direction, hit), hit);
 }
 
+std::optional<SurfacePoint> RayScene::intersect(const Vector3f& origin, const Vector3f& direction) const {
+  const Hit hit = first_blocking(origin, direction).hit;
+  if (hit.triangle == Hit::nothing) return std::nullopt;
+  return surface_point(skin(direction, hit), hit);
+}
+
 bool RayScene::occluded(const Vector3f& origin, const Vector3f& direction) const {
+  if (see_through_) return first_blocking(origin, direction).hit.triangle != Hit::nothing;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRay ray = make_ray(origin, direction);
@@ -164,24 +229,59 @@ bool RayScene::occluded(const Vector3f& origin, const Vector3f& direction) const
 }
 
 float RayScene::distance(const Vector3f& origin, const Vector3f& direction) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCRayHit query = make_query(origin, direction);
-  rtcIntersect1(embree_->scene, &context, &query);
-  return query.ray.tfar;
+  return first_blocking(origin, direction).distance;
+}
+
+RayScene::Met RayScene::first_blocking(const Vector3f& origin, const Vector3f& direction) const {
+  constexpr int most = 64;  // layers, of which the last one blocks
+  float near = 0;
+  for (int layer = 0;; ++layer) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit query = make_query(origin, direction);
+    query.ray.tnear = near;
+    rtcIntersect1(embree_->scene, &context, &query);
+    const Met met{found(query), query.ray.tfar};
+    if (met.hit.triangle == Hit::nothing || blocks(met.hit) || layer == most) return met;
+    near = met.distance + lift;
+  }
+}
+
+bool RayScene::blocks(const Hit& hit) const { return !see_through_ || random_of(hit) < finish(hit).shading(); }
+
+Finish RayScene::finish(const Hit& hit) const {
+  if (plain()) return {};
+  const Triangle& t = triangles_[hit.triangle];
+  const float weight[] = {1 - hit.u - hit.v, hit.u, hit.v};
+  Finish mean{0, 0, 0, 0, 0, 0};
+  for (std::size_t k = 0; k < 3; ++k) mean.add(weight[k], finishes_[t[k]]);
+  return mean;
 }
 
 Vector3f RayScene::position(const Hit& hit) const { return blend(points_, triangles_[hit.triangle], hit); }
 
-Skin RayScene::skin(const Vector3f& direction, const Hit& hit) const {
+Vector3f RayScene::flat_normal(const Hit& hit) const {
   const Triangle& t = triangles_[hit.triangle];
+  return (points_[t[1]] - points_[t[0]]).cross(points_[t[2]] - points_[t[0]]).normalized();
+}
+
+bool RayScene::from_behind(const Vector3f& direction, const Hit& hit) const {
+  return flat_normal(hit).dot(direction) > 0;
+}
+
+Vector3f RayScene::shading_normal(const Hit& hit) const {
+  const std::vector<Vector3f>& normals = tilted_.empty() ? normals_ : tilted_;
+  return normals.empty() ? Vector3f::Zero().eval() : blend(normals, triangles_[hit.triangle], hit);
+}
+
+Skin RayScene::skin(const Vector3f& direction, const Hit& hit) const {
   Skin skin;
-  skin.color = colors_.empty() ? clay : blend(colors_, t, hit);
-  skin.face_normal = (points_[t[1]] - points_[t[0]]).cross(points_[t[2]] - points_[t[0]]).normalized();
+  skin.color = colors_.empty() ? clay : blend(colors_, triangles_[hit.triangle], hit);
+  skin.face_normal = flat_normal(hit);
   if (!(skin.face_normal.squaredNorm() > 0)) skin.face_normal = -direction;
   if (skin.face_normal.dot(direction) > 0) skin.face_normal = -skin.face_normal;
   skin.normal = skin.face_normal;
-  const Vector3f smooth = normals_.empty() ? Vector3f::Zero().eval() : blend(normals_, t, hit);
+  const Vector3f smooth = shading_normal(hit);
   if (smooth.squaredNorm() > least_normal)
     skin.normal = std::copysign(1.0F, smooth.dot(skin.face_normal)) * smooth.normalized();
   return skin;
@@ -189,7 +289,7 @@ Skin RayScene::skin(const Vector3f& direction, const Hit& hit) const {
 
 SurfacePoint RayScene::surface_point(const Skin& skin, const Hit& hit) const {
   const Triangle& t = triangles_[hit.triangle];
-  SurfacePoint point{skin, position(hit), {}};
+  SurfacePoint point{skin, position(hit), {}, hit};
   point.lifted = point.position;
   const Vector3f smooth = normals_.empty() ? Vector3f::Zero().eval() : blend(normals_, t, hit);
   if (smooth.squaredNorm() > least_normal) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/frame.h"
+
 namespace pelage {
 
 using Eigen::Vector2f;
@@ -13,16 +15,6 @@ using Eigen::Vector3f;
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-
-/// Two unit vectors that make a right-handed frame with the unit vector n (Duff et al., "Building an Orthonormal
-/// Basis, Revisited", JCGT 2017).
-void make_frame(const Vector3f& n, Vector3f& x, Vector3f& y) {
-  const float sign = std::copysign(1.0F, n.z());
-  const float a = -1 / (sign + n.z());
-  const float b = n.x() * n.y() * a;
-  x = {1 + sign * n.x() * n.x() * a, sign * b, -sign * n.x()};
-  y = {b, sign + n.y() * n.y() * a, -n.y()};
-}
 
 constexpr float lamp_radius = 0.30F;  // of a lamp at distance 1: shadows with wide soft edges
 
@@ -90,8 +82,10 @@ Studio::Studio(const Vector3f& back, const Vector3f& paper)
     : key_(0.62F, 0.605F, 0.585F),  // a little warmer than the room, as tungsten against daylight
       paper_(paper),
       to_key_(lamp_direction(back, -42, 48)),
-      to_rim_(lamp_direction(back, 140, 30)) {
-  make_frame(to_key_, key_x_, key_y_);
+      to_rim_(lamp_direction(back, 140, 30)),
+      back_(back) {
+  const Frame around(to_key_);
+  key_x_ = around.x, key_y_ = around.y;
   // Exact for polynomials of degree 5 over the disc (Abramowitz and Stegun 25.4.61): the middle and a hexagon.
   key_points_[0] = {to_key_, 0.25F};
   for (std::size_t k = 1; k < 7; ++k) key_points_[k] = {key_direction({2.0F / 3, static_cast<float>(k) / 6}), 0.125F};
@@ -133,6 +127,32 @@ Vector3f Studio::key_direction(const std::array<float, 2>& random) const {
   return (to_key_ + p.x() * key_x_ + p.y() * key_y_).normalized();
 }
 
+float Studio::key_density(const Vector3f& direction) const { return density_of_disc(direction, lamp_radius); }
+
+/// Over the sphere, of directions to even points of a lamp of that radius.
+float Studio::density_of_disc(const Vector3f& direction, float radius) const {
+  const float d = direction.dot(to_key_);
+  if (d <= 0 || (direction / d - to_key_).squaredNorm() > radius * radius) return 0;
+  return 1 / (pi * radius * radius * d * d * d);
+}
+
+Vector3f Studio::lamp(const Vector3f& direction) const { return pi * key_density(direction) * key_; }
+
+Vector3f Studio::wide_lamp(const Vector3f& direction) const {
+  return pi * density_of_disc(direction, 3 * lamp_radius) * key_;
+}
+
+Vector3f Studio::surroundings(const Vector3f& direction) const {
+  const float behind = smooth_step(0.1F, 0.6F, -direction.dot(back_)) * smooth_step(0.9F, 0.5F, direction.y());
+  return room(direction) + behind * (paper_ - room(direction));
+}
+
+Vector3f Studio::seen_floor(bool lit) const {
+  if (lit) return paper_;
+  const Vector3f room = floor_irradiance(), all = room + key_cosine(Vector3f::UnitY()) * key_;
+  return paper_.cwiseProduct(room.cwiseQuotient(all));
+}
+
 float Studio::key_cosine(const Vector3f& n) const {
   // The flat lamp's points are to_key + p with |p| <= r, their distances sqrt(1 + p^2): 2 (sqrt(1 + r^2) - 1) / r^2 is
   // the mean of 1 / distance.
@@ -169,9 +189,7 @@ Vector2f disc_point(const std::array<float, 2>& random) {
 }
 
 Vector3f hemisphere_direction(const Vector3f& n, const Vector2f& p) {
-  Vector3f x, y;
-  make_frame(n, x, y);
-  return (p.x() * x + p.y() * y + std::sqrt(std::max(0.0F, 1 - p.squaredNorm())) * n).normalized();
+  return Frame(n).to_world({p.x(), p.y(), std::sqrt(std::max(0.0F, 1 - p.squaredNorm()))}).normalized();
 }
 
 Vector3f cosine_direction(const Vector3f& n, const std::array<float, 2>& random) {

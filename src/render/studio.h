@@ -17,6 +17,8 @@ class Studio {
 
   /// A direction towards a point of the key lamp for a random point of the unit square.
   Eigen::Vector3f key_direction(const std::array<float, 2>& random) const;
+  /// Its density over the sphere, 0 beside the lamp.
+  float key_density(const Eigen::Vector3f& direction) const;
   /// Directions and weights whose weighted sum over a smooth function is its mean over the key lamp.
   struct LampPoint {
     Eigen::Vector3f direction;
@@ -43,12 +45,20 @@ class Studio {
   /// share of the paper's colour.
   float backdrop(float x, float y) const;
   const Eigen::Vector3f& paper() const { return paper_; }
+  /// Radiance that comes from a direction as things that mirror or refract show it: the lamp, the room and, behind the
+  /// object, the paper, which hangs down from above. Upwards only.
+  Eigen::Vector3f lamp(const Eigen::Vector3f& direction) const;
+  Eigen::Vector3f wide_lamp(const Eigen::Vector3f& direction) const;  ///< as much light from nine times the area
+  Eigen::Vector3f surroundings(const Eigen::Vector3f& direction) const;
+  /// The floor as the camera sees it.
+  Eigen::Vector3f seen_floor(bool lit) const;
 
  private:
   void tabulate();
+  float density_of_disc(const Eigen::Vector3f& direction, float radius) const;
 
   Eigen::Vector3f key_, paper_, floor_;
-  Eigen::Vector3f to_key_, to_rim_, key_x_, key_y_;
+  Eigen::Vector3f to_key_, to_rim_, key_x_, key_y_, back_;
   std::array<LampPoint, 7> key_points_;
   std::vector<Eigen::Vector3f> irradiance_;  ///< over the octahedral map of directions
 };

@@ -42,6 +42,8 @@ TEST(Plan, FindsWhatNeedsNoShape) {
   expect("initial = { b = \"q\" }\n", "unknown name \"q\"");
   expect("[look]\nramp = \"tawni\"\n", "test.toml:5");
   expect("[[look.layers]]\ncolor = \"#123456\"\nopacity = \"c\"\n", "test.toml:6:");
+  expect("[look]\nroughness = \"b + c\"\n", "test.toml:5:18");
+  expect("[look]\nheight = \"stage0.b\"\n", "test.toml:5:");
   expect("[[look.layers]]\ncolor = \"#123456\"\nopacity = \"t\"\n",
          "test.toml:6:12: this can depend on the place only");
   expect("[motion]\nfair = \"gided\"\n", "did you mean \"guided\"");

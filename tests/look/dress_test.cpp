@@ -54,6 +54,20 @@ TEST(Dress, LeavesFieldsOutWhereTheLookSaysSo) {
   EXPECT_EQ(coat.find("color")->values, dress(triangle({}), paint_with(true), {0, 0}).find("color")->values);
 }
 
+TEST(Dress, ChannelsAreAttributes) {
+  Look look;
+  look.channels[Channel::height] = {"b - 4", {}};
+  look.channels[Channel::roughness] = {"attribute(input_b)/3", {}};
+  Tessellation t = triangle({"b", "material_height"});
+  t.samples.attributes["b"] = {1, 2, 3};
+  t.samples.wavelength = 10;
+  const TriangleMesh coat = dress(t, resolve_paint(look, {"large.b", "b"}), {0, 0});
+  EXPECT_EQ(coat.find("material_height")->values, (std::vector<double>{0, 10, 20}));
+  EXPECT_EQ(coat.find("input_material_height")->values, number("").values);
+  EXPECT_EQ(coat.find("material_roughness")->values, (std::vector<double>{1.0 / 3, 2.0 / 3, 1}));
+  EXPECT_EQ(coat.find("material_metalness"), nullptr);
+}
+
 /// An attribute that is called like a species: layers know the species by its name, and the attribute as files do.
 TEST(Dress, LayersReadWhatASpeciesHides) {
   Look look;

@@ -141,5 +141,67 @@ TEST(Layers, NoiseHasTheUnitAndTheSeedOfTheStage) {
   EXPECT_NE(one, with(1, 2));
 }
 
+/// A look that says this of a channel, at a line of its own.
+Paint with_channel(Channel channel, const std::string& formula) {
+  Look look;
+  look.channels[channel] = {formula, {"look.toml", 7, 3}};
+  return resolve_paint(look, {"large.b", "b"});
+}
+
+std::vector<double> values_of(Channel channel, const std::string& formula, double wavelength = 1) {
+  CoatSamples s = samples();
+  s.wavelength = wavelength;
+  return channel_values(s, with_channel(channel, formula), channel);
+}
+
+TEST(Channels, AreFormulasClampedToTheirRange) {
+  EXPECT_EQ(values_of(Channel::roughness, "b"), (std::vector<double>{0, 0.5, 1}));
+  EXPECT_EQ(values_of(Channel::metalness, "1 - large.b - x"), (std::vector<double>{1, 0, 0}));
+  EXPECT_EQ(values_of(Channel::emission, "4*b - 1"), (std::vector<double>{0, 1, 7}));
+  EXPECT_EQ(values_of(Channel::opacity, "0.25"), std::vector<double>(3, 0.25));
+}
+
+TEST(Channels, LengthsAreInSizesOfThePattern) {
+  EXPECT_EQ(values_of(Channel::height, "b - 1", 4), (std::vector<double>{-4, -2, 4}));
+  EXPECT_EQ(values_of(Channel::thickness, "b - 1", 4), (std::vector<double>{0, 0, 4}));
+  EXPECT_EQ(values_of(Channel::roughness, "b", 4), values_of(Channel::roughness, "b"));
+}
+
+TEST(Channels, SayWhatWasClamped) {
+  EXPECT_TRUE(clamped_channels(samples(), with_channel(Channel::roughness, "b/2")).empty());
+  EXPECT_TRUE(clamped_channels(samples(), with_channel(Channel::height, "-1000*b")).empty());
+  EXPECT_EQ(clamped_channels(samples(), with_channel(Channel::roughness, "b")),
+            std::vector<std::string>{"the roughness runs from 0 to 2; it was clamped to 0 to 1"});
+  EXPECT_EQ(clamped_channels(samples(), with_channel(Channel::emission, "b - 1")),
+            std::vector<std::string>{"the emission runs from -1 to 1; it was clamped to 0 and more"});
+}
+
+TEST(Channels, FaultsHaveAPlace) {
+  const auto fault_of = [](const std::string& formula) {
+    try {
+      values_of(Channel::roughness, formula);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.where().line, 7) << formula;
+      return std::optional(error.fault());
+    }
+    return std::optional<Fault>{};
+  };
+  EXPECT_EQ(fault_of("c"), Fault::usage);
+  EXPECT_EQ(fault_of("b +"), Fault::usage);
+  EXPECT_EQ(fault_of("t"), Fault::usage);
+  EXPECT_EQ(fault_of("attribute(age)"), Fault::usage);
+  EXPECT_EQ(fault_of("1/b"), Fault::numerics);
+}
+
+/// Random fields ride along with a surface that has moved, as in layers.
+TEST(Channels, ReadNoiseAsLayersDo) {
+  const Paint p = with_channel(Channel::roughness, "0.5 + 0.1*noise(2, 7)");
+  CoatSamples moved = samples();
+  for (Point& q : moved.position) q[0] *= 3;
+  EXPECT_NE(channel_values(moved, p, Channel::roughness), channel_values(samples(), p, Channel::roughness));
+  moved.drawn_at = positions;
+  EXPECT_EQ(channel_values(moved, p, Channel::roughness), channel_values(samples(), p, Channel::roughness));
+}
+
 }  // namespace
 }  // namespace pelage

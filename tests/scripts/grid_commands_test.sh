@@ -34,6 +34,11 @@ grows grow 'builtin:tile?n=48' --recipe weave --size 12px --steps 5 -o t.png,t.e
 grows grow 'builtin:tile?n=40x32' --model turing --size 9px --steps 20 --height-map relief.png
 # A PNG of 40 x 32 pixels of 16-bit grey.
 [ "$(od -An -tx1 -j16 -N10 relief.png | tr -d ' \n')" = 00000028000000201000 ] || fail "relief.png is no grey of 16 bits"
+grows grow 'builtin:tile?n=40x32' --model turing --size 9px --steps 20 --height-map high.png --material 'height=0.1*b'
+grep -q 'high.png .*black is [0-9.]* and white' log || fail "nothing is said of what black and white are in high.png"
+cmp -s relief.png high.png || fail "a height that is the shown species makes another relief"
+grows grow 'builtin:tile?n=40x32' --model turing --size 9px --steps 20 --height-map slope.png --material 'height=0.1*x'
+! cmp -s relief.png slope.png || fail "the relief is not the height that was asked for"
 grows grow t.png --model turing --size 9px --steps 5 --param-map 's=0.05+0.02*attribute(color)' -o image.vti
 grows grow t.vti --model turing --size 9px --steps 5 -o again.vti
 grows grow 'builtin:sheet?n=40x30' --model turing --size 9px --steps 5 --method masks -o masks.png
