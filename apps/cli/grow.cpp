@@ -21,14 +21,15 @@
 #include "look/sheet_image.h"
 #include "node_outputs.h"
 #include "panels.h"
-#include "patch_outputs.h"
 #include "pelage/io.h"
 #include "progress_bar.h"
 #include "run/nested.h"
 #include "shape/split_corners.h"
+#include "shape/triangulate.h"
 #include "soup_input.h"
 #include "space_time.h"
 #include "text.h"
+#include "texture_outputs.h"
 
 namespace pelage {
 
@@ -230,27 +231,62 @@ struct Grown {
   std::shared_ptr<const TriangleMesh> shape;
   Paint paint;
   std::shared_ptr<const NodeShape> nodes;  ///< of the run, which may be made of the file's surface
-  std::optional<PatchTexture> texture;     ///< of patches, where it is asked for
+  std::optional<PatchTexture> patches;     ///< where they are asked for
+  std::optional<CoatTextures> textures;    ///< likewise
+  std::optional<PolygonMesh> textured;     ///< the mesh that shows these
 };
 
 int texture_size(const GrowOptions& options) { return options.bake.value_or(default_texture); }
 
 /// Of patches: whether any output shows images of them; checks that these have room.
-bool wants_texture(const GrowOptions& options, const ShapeFile& file) {
+bool wants_patches(const GrowOptions& options, const ShapeFile& file) {
   const Atlas* atlas = as<Atlas>(file.nodes);
-  const bool wanted = options.bake || !options.patch_images.empty() ||
+  const bool wanted = wants_images(options) || !options.patch_images.empty() ||
                       std::ranges::any_of(options.outputs, [](const std::string& o) { return is_node_output(o); });
   if (!atlas || !wanted) return false;
   lay_out(*atlas, texture_size(options));
   return true;
 }
 
-/// Of patches.
-Saving save_with_texture(const Grown& grown, const std::string& path, const SaveOptions& form) {
-  Saving saving;
-  saving.files = save_textured(grown.coat, path, form, *grown.texture);
-  if (!is_node_output(path)) saving.losses = losses(grown.coat, extension_of(path));
-  return saving;
+/// Of surfaces, where images are asked for; warns of what is unusual.
+std::optional<UvLayout> layout_of(const GrowOptions& options, const ShapeFile& file, GrowReport& report) {
+  if (!wants_images(options) || as<Atlas>(file.nodes)) return {};
+  if (file.nodes && !as<Cells>(file.nodes))
+    throw Error(Fault::usage, "--bake and --maps are for surfaces with uv and for patches, and the shape is neither");
+  std::optional<UvLayout> layout = uv_layout(file.mesh, texture_size(options));
+  for (const std::string& line : lines_of(layout->notes(), file.mesh, file.source.get())) report.warning(line);
+  return layout;
+}
+
+Saving save_with_textures(const Grown& grown, const std::string& path, const SaveOptions& form) {
+  const PolygonMesh mesh = grown.textured ? *grown.textured : polygons_of(grown.coat);
+  return {save_textured(mesh, path, form, *grown.textures), "", losses(mesh, extension_of(path))};
+}
+
+/// The file's own mesh as it is cut into triangles; where repairs have changed those, the one of the run.
+TriangleMesh shaded_mesh(const PolygonMesh& textured, const TriangleMesh& shape) {
+  std::vector<Finding> ignored;
+  TriangleMesh mesh = triangulate(textured, ignored).mesh;
+  return mesh.triangles.size() == shape.triangles.size() ? mesh : shape;
+}
+
+/// The coat on the surface that it has grown on, as images on the file's own mesh.
+void bake_surface(const CoatFields& fields, const Look& look, const UvLayout& layout, const ShapeFile& file,
+                  Grown& grown, GrowReport& report) {
+  const Cells* cells = as<Cells>(fields.nodes);
+  const TriangleMesh& shape = cells ? *cells->on : *grown.shape;
+  Look as_given = look;
+  as_given.keep_shape = true;
+  grown.textured = kept_shape(form_of_shape(file, shape), dress(fields, as_given), grown.paint);
+  std::optional<ShadingFrames> frames;
+  if (grown.paint.channels.contains(Channel::height)) frames.emplace(shaded_mesh(*grown.textured, shape));
+  Look smooth = look;
+  smooth.keep_shape = false;
+  const Tessellation t = tessellate(fields, tessellation_request(smooth, grown.paint));
+  BakedCoat baked = bake(CoatSampler(fields, t, grown.paint), make_palette(grown.paint, t.samples, fields.uniform),
+                         layout, frames ? &*frames : nullptr);
+  for (const std::string& line : lines_of({baked.hidden}, shape, file.source.get())) report.warning(line);
+  grown.textures = textures_of(std::move(baked), layout);
 }
 
 void require_line(const ShapeFile& file) {
@@ -298,12 +334,13 @@ bool only_images(const GrowOptions& options, const Look& look) {
 }
 
 Grown grown_coat(const GrowOptions& options, const Plan& planned, const Look& look, ShapeFile& file,
-                 std::vector<Texture> images, Carving carving, const Progress& progress, GrowReport& report) {
+                 std::vector<Texture> images, Carving carving, const std::optional<UvLayout>& layout,
+                 const Progress& progress, GrowReport& report) {
   auto own = interruptible("before the growth began; nothing was written", [&] {
     return std::make_unique<Run>(bind_plan(planned, file, std::move(images)), progress);
   });
   Run& run = *own;
-  const bool textured = wants_texture(options, file);
+  const bool patches = wants_patches(options, file);
   if (!options.height_map.empty()) require_sheet(file);
   if (options.nested) begin_nested(run, progress, report);
   restore(run, options.resume);
@@ -327,15 +364,22 @@ Grown grown_coat(const GrowOptions& options, const Plan& planned, const Look& lo
   }
   if (look.keep_shape) report.coarseness(run);
   if (!options.height_map.empty()) write_relief(*as<Grid>(file.nodes), fields, look, options.height_map, report);
-  Grown grown{{}, {}, {}, shape_of(run.program()), resolve_paint(look, fields.species), fields.nodes, {}};
+  Grown grown{{}, {}, {}, shape_of(run.program()), resolve_paint(look, fields.species), fields.nodes, {}, {}, {}};
   own.reset();
   if (only_images(options, look) && is_bare_sheet(fields)) {
     grown.image = sheet_image(fields, look);
     return grown;
   }
   grown.coat = dressed(fields, look, grown.paint, report);
-  if (textured) grown.texture = patch_texture(fields, look, texture_size(options));
-  if (options.bake && textured) grown.coat = with_uv(std::move(grown.coat), *grown.texture);
+  if (patches) grown.patches = patch_texture(fields, look, texture_size(options));
+  if (patches && wants_images(options)) {
+    grown.coat = with_uv(std::move(grown.coat), *grown.patches);
+    grown.textures = textures_of(*grown.patches);
+  }
+  if (layout) {
+    progress("baking", 0);
+    bake_surface(fields, look, *layout, file, grown, report);
+  }
   if (!is_volume(fields.nodes.get())) return grown;
   if (const std::string other = fit_level(carving, fields); !other.empty()) report.warning(other);
   grown.body = dress_body(fields, look, carving);
@@ -398,14 +442,13 @@ ShapeFile read_input(const GrowOptions& options, const std::string& shape, const
 }
 
 void write_files(const GrowOptions& options, const Grown& grown, const ShapeFile& file, bool keep_shape,
-                 SaveOptions form, const Progress& progress, GrowReport& report) {
-  if (grown.texture && options.bake) form.texture = grown.texture->image;
+                 const SaveOptions& form, const Progress& progress, GrowReport& report) {
   const auto save_as = [&](const std::string& path) -> Saving {
-    if (grown.image) {
-      write_png(*grown.image, path);
+    if (grown.image || (grown.patches && is_node_output(path))) {
+      write_png(grown.image ? *grown.image : *grown.patches->image, path);
       return {{path}, "", {}};
     }
-    if (grown.texture && (options.bake || is_node_output(path))) return save_with_texture(grown, path, form);
+    if (grown.textures && options.bake) return save_with_textures(grown, path, form);
     if (is_node_output(path)) return {{path}, save_nodes(*grown.nodes, grown.coat, path), {}};
     if (grown.body) return save_body(*grown.body, path, form);
     if (!keep_shape || grown.shape->triangles.empty()) return save_mesh(grown.coat, path, form);
@@ -413,7 +456,9 @@ void write_files(const GrowOptions& options, const Grown& grown, const ShapeFile
   };
   write_outputs(options.outputs, save_as, progress, report);
   if (!options.patch_images.empty())
-    for (const std::string& path : save_patches(*grown.texture, options.patch_images)) report.file(path);
+    for (const std::string& path : save_patches(*grown.patches, options.patch_images)) report.file(path);
+  if (!options.baked_maps.empty())
+    for (const MapFile& map : save_maps(*grown.textures, options.baked_maps)) report.file(map.path, map.about);
 }
 
 void write_pictures(const GrowOptions& options, const Recipe& recipe, const Grown& grown, const ShapeFile& file,
@@ -452,10 +497,11 @@ void grow(const GrowOptions& options) {
   const UpAxis up = options.up.value_or(file.up);
   Carving carving = carving_of(options, planned, up);
   check_kind(options, recipe.look, file, carving);
-  if (!recipe.look.keep_shape) file.source.reset();
+  const std::optional<UvLayout> layout = layout_of(options, file, report);
+  if (!recipe.look.keep_shape && !layout) file.source.reset();
 
   const Grown grown =
-      grown_coat(options, planned, recipe.look, file, std::move(images), std::move(carving), progress, report);
+      grown_coat(options, planned, recipe.look, file, std::move(images), std::move(carving), layout, progress, report);
   write_files(options, grown, file, recipe.look.keep_shape, {object_name(file, recipe.shape), up}, progress, report);
   write_pictures(options, recipe, grown, file, picture_options(options, *planned.quality, up), progress, report);
   if (options.profile) report.profile(profile);

@@ -29,6 +29,7 @@
 #include "settings.h"
 #include "shape/builtin_grids.h"
 #include "shape/generators.h"
+#include "texture_outputs.h"
 #include "time/stepper.h"
 #include "usage.h"
 
@@ -40,6 +41,21 @@ constexpr std::int64_t most_steps = 1'000'000'000'000;
 constexpr int largest_picture = 32768;
 constexpr int most_tiles = 16;
 constexpr int smallest_texture = 16, largest_texture = 16384;
+
+/// Of --bake: whole numbers in that range; larger ones are told what they would need.
+CLI::Validator texture_size_option() {
+  const CLI::Validator whole = whole_number(smallest_texture, std::numeric_limits<std::int32_t>::max());
+  return CLI::Validator(
+      [whole](std::string& text) {
+        std::string fault = whole(text);
+        if (!fault.empty()) return fault;
+        const double side = std::stod(text), gigabytes = bytes_of_a_texel * side * side / 1e9;
+        if (side <= largest_texture) return fault;
+        return "images of " + text + " x " + text + " texels need " + std::to_string(std::llround(gigabytes)) +
+               " GB of memory; at most " + std::to_string(largest_texture) + " texels along a side";
+      },
+      "");
+}
 
 std::string choices(const std::vector<std::string>& names) { return ": " + join_names(names); }
 
@@ -225,11 +241,19 @@ void add_file_options(CLI::App& app, GrowOptions& o, const std::string& group) {
          "--no-fields", o.no_fields,
          "Leave the concentrations of the species out of these files; colours and the shape's own attributes stay")
       ->group(group);
-  app.add_option("--bake", o.bake,
-                 "Of patches: colours as an image of so many texels along a side instead of at vertices, in GLB or "
-                 "beside OBJ; also the size of .png and --patch-images (default: 2048)")
+  app.add_option(
+         "--bake", o.bake,
+         "Of a shape with uv, and of patches: the coat as images of so many texels along a side instead of "
+         "colours at vertices, in GLB or beside OBJ, on the shape as it is; also the size of --maps, of .png and "
+         "--patch-images (default: 2048)")
       ->type_name("N")
-      ->check(whole_number(smallest_texture, largest_texture))
+      ->check(texture_size_option())
+      ->group(group);
+  app.add_option(
+         "--maps", o.baked_maps,
+         "These images as files, PREFIX-color.png, PREFIX-height.png and .exr, PREFIX-normal.png where the look "
+         "has a height; of UDIM tiles PREFIX-color.1001.png and so on")
+      ->type_name("PREFIX")
       ->group(group);
   app.add_option("--patch-images", o.patch_images, "Of patches: folder for an image of each, PATCH.png")
       ->type_name("FOLDER")
@@ -526,9 +550,27 @@ void check_inputs(const GrowOptions& options, const Recipe& recipe) {
 
 void require_outputs(const GrowOptions& options) {
   if (options.outputs.empty() && options.picture.empty() && options.panels.empty() && options.plot.empty() &&
-      options.height_map.empty() && options.patch_images.empty())
+      options.height_map.empty() && options.patch_images.empty() && options.baked_maps.empty())
     throw Error(Fault::usage, "nothing to write; give -o FILE, --picture FILE or both");
 }
+
+namespace {
+
+/// Of images on meshes, what can be known before the shape is.
+void check_images(const GrowOptions& options, const std::string& shape) {
+  if (!options.patch_images.empty() && !names_atlas(shape))
+    throw Error(Fault::usage, "--patch-images is for patches, an image for each of them; take --bake");
+  if (!wants_images(options)) return;
+  if (names_grid(shape) && !names_atlas(shape))
+    throw Error(Fault::usage, "--bake and --maps are for surfaces with uv and for patches; of a grid write a .png");
+  if (options.flat || options.detail.value_or(0) > 0)
+    throw Error(Fault::usage, "--bake and --maps are for the shape as it is: leave --flat and --detail out");
+  if (!options.baked_maps.empty()) check_maps(options.baked_maps);
+  for (const std::string& output : options.outputs)
+    if (options.bake && !is_node_output(output)) check_textured_path(output);
+}
+
+}  // namespace
 
 void check_outputs(const GrowOptions& options, const std::string& shape) {
   for (const std::string& output : options.outputs) {
@@ -543,8 +585,7 @@ void check_outputs(const GrowOptions& options, const std::string& shape) {
     check_picture_size(options.picture_size, options.picture_size, options.picture);
   }
   if (!options.plot.empty()) check_picture_path(options.plot);
-  if ((options.bake || !options.patch_images.empty()) && !names_atlas(shape))
-    throw Error(Fault::usage, "--bake and --patch-images are for patches, which say where an image lies on them");
+  check_images(options, shape);
   if (!options.height_map.empty()) {
     check_picture_path(options.height_map);
     if (!names_grid(shape)) throw Error(Fault::usage, "--height-map is for sheets of grids, a pixel for each node");

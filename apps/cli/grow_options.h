@@ -33,7 +33,8 @@ struct GrowOptions {
 
   std::vector<std::string> outputs;
   std::string picture, panels, plot, height_map, patch_images, checkpoint, resume;
-  std::optional<int> bake;        ///< texels along a side of the image of patches
+  std::optional<int> bake;        ///< texels along a side of images on meshes
+  std::string baked_maps;         ///< how the names of such images begin
   std::vector<std::string> cuts;  ///< "x < 0"
   std::optional<std::string> isosurface;
   std::array<int, 2> preview{1, 1};  ///< tiles across and down
@@ -43,6 +44,9 @@ struct GrowOptions {
 };
 
 void add_options(CLI::App& app, GrowOptions& options);
+
+/// Whether images on the mesh are asked for.
+inline bool wants_images(const GrowOptions& options) { return options.bake || !options.baked_maps.empty(); }
 
 /// The recipe that was named, or an empty one, with the options' values on top. Error(Fault::usage) for what cannot be
 /// understood, and when there is no shape.

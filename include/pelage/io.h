@@ -16,6 +16,7 @@
 #include "pelage/image.h"
 #include "pelage/node_shape.h"
 #include "pelage/polygon_mesh.h"
+#include "pelage/texture_maps.h"
 #include "pelage/up_axis.h"
 
 namespace pelage {
@@ -55,8 +56,10 @@ std::vector<std::string> readable_extensions();
 struct SaveOptions {
   std::string name = "mesh";  ///< of the object, in formats that name it
   UpAxis up = UpAxis::y;      ///< the mesh's axis that points up: GLB prescribes y, the others take the mesh as it is
-  /// What the mesh shows instead of "color", laid on it by its "uv": inside GLB; the others hold none.
-  std::shared_ptr<const Image> texture = nullptr;
+  /// What the mesh shows instead of "color", laid on it by its "uv": inside GLB; the others hold none. One for each
+  /// label of "material", or a single one for all of the mesh; those of "uv" beyond the image see it repeated.
+  std::vector<TextureMaps> textures = {};
+  bool repeat = false;  ///< else they see its border
 };
 
 /// Writes a mesh as .glb, .ply, .obj, .vtp, .stl or .off, with all its attributes that the format can hold. Every
@@ -88,5 +91,9 @@ void write_png(const Image& image, const std::string& path);
 
 /// The bytes of that file. Errors as above but for the last.
 std::string png_bytes(const Image& image);
+
+/// The same for pixels that are bytes already: one channel is grey, four are colours with their alpha.
+void write_png(const Pixels& pixels, const std::string& path);
+std::string png_bytes(const Pixels& pixels);
 
 }  // namespace pelage

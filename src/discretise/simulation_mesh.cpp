@@ -52,6 +52,22 @@ void refine_for(Hierarchy& levels, std::vector<Point>& control, double edge, std
 
 }  // namespace
 
+Point smooth_point(const Triangle& t, const std::vector<Point>& points, const std::vector<Point>& normals, double v,
+                   double w) {
+  std::array<Vector3d, 3> corner;
+  std::array<std::array<Vector3d, 2>, 3> toward;
+  for (std::size_t k = 0; k < 3; ++k) corner[k] = vec(points[at(t[k])]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3d normal = vec(normals[at(t[k])]);
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Vector3d along = corner[(k + 1 + side) % 3] - corner[k];
+      toward[k][side] = along - along.dot(normal) * normal;
+    }
+  }
+  const Vector3d p = cubic_triangle(corner, toward, v, w);
+  return {p[0], p[1], p[2]};
+}
+
 SimulationMesh::SimulationMesh(Hierarchy& levels, std::vector<Point>& control, const Edge& edge,
                                std::size_t max_triangles) {
   refine_for(levels, control, edge.smallest, max_triangles);
@@ -72,18 +88,7 @@ std::vector<Point> SimulationMesh::points(const std::vector<Point>& control) con
   parallel_for(places_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Triangle& t = finest_->triangles[at(places_[i].face)];
-      std::array<Vector3d, 3> corner;
-      std::array<std::array<Vector3d, 2>, 3> toward;
-      for (std::size_t k = 0; k < 3; ++k) corner[k] = vec(limit[at(t[k])]);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Vector3d normal = vec(normals[at(t[k])]);
-        for (std::size_t side = 0; side < 2; ++side) {
-          const Vector3d along = corner[(k + 1 + side) % 3] - corner[k];
-          toward[k][side] = along - along.dot(normal) * normal;
-        }
-      }
-      const Vector3d p = cubic_triangle(corner, toward, places_[i].v, places_[i].w);
-      result[i] = {p[0], p[1], p[2]};
+      result[i] = smooth_point(t, limit, normals, places_[i].v, places_[i].w);
     }
   });
   return result;
@@ -133,11 +138,11 @@ Attribute SimulationMesh::values(const Attribute& given) const {
 namespace {
 
 /// The gradient of one field at every vertex: the mean over the triangles there, by their area.
-std::vector<Vector3d> vertex_gradients(const Topology& mesh, const std::vector<Point>& points,
-                                       const std::vector<double>& field) {
+std::vector<Point> vertex_gradients(const std::vector<Triangle>& triangles, const std::vector<Point>& points,
+                                    const std::vector<double>& field) {
   std::vector<Vector3d> sum(points.size(), Vector3d::Zero());
   std::vector<double> weight(points.size(), 0.0);
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : triangles) {
     const Vector3d a = vec(points[at(t[0])]), b = vec(points[at(t[1])]), c = vec(points[at(t[2])]);
     const Vector3d n = (b - a).cross(c - a);
     const double twice = n.norm();
@@ -150,35 +155,45 @@ std::vector<Vector3d> vertex_gradients(const Topology& mesh, const std::vector<P
       weight[at(v)] += twice;
     }
   }
-  for (std::size_t v = 0; v < sum.size(); ++v)
+  std::vector<Point> mean(points.size());
+  for (std::size_t v = 0; v < sum.size(); ++v) {
     if (weight[v] > 0) sum[v] /= weight[v];
-  return sum;
+    mean[v] = {sum[v][0], sum[v][1], sum[v][2]};
+  }
+  return mean;
 }
 
 }  // namespace
 
+MeshFields::MeshFields(const std::vector<Triangle>& triangles, const std::vector<Point>& points,
+                       const std::vector<std::vector<double>>& fields)
+    : triangles_(triangles), points_(points), fields_(fields) {
+  for (const std::vector<double>& field : fields) gradients_.push_back(vertex_gradients(triangles, points, field));
+}
+
+double MeshFields::at(std::size_t field, const MeshPlace& place) const {
+  const Triangle& t = triangles_[pelage::at(place.face)];
+  const auto of = [&](const auto& values, std::size_t k) -> const auto& { return values[pelage::at(t[k % 3])]; };
+  std::array<double, 3> corner;
+  std::array<std::array<double, 2>, 3> toward;
+  for (std::size_t k = 0; k < 3; ++k) {
+    corner[k] = of(fields_[field], k);
+    for (std::size_t side = 0; side < 2; ++side)
+      toward[k][side] = vec(of(gradients_[field], k)).dot(vec(of(points_, k + 1 + side)) - vec(of(points_, k)));
+  }
+  return cubic_triangle(corner, toward, place.v, place.w);
+}
+
 std::vector<std::vector<double>> fields_at(const std::vector<MeshPlace>& places, const Topology& mesh,
                                            const std::vector<Point>& points,
                                            const std::vector<std::vector<double>>& fields) {
-  std::vector<std::vector<double>> result;
-  for (const std::vector<double>& field : fields) {
-    const std::vector<Vector3d> gradient = vertex_gradients(mesh, points, field);
-    std::vector<double>& values = result.emplace_back(places.size());
+  const MeshFields anywhere(mesh.triangles, points, fields);
+  std::vector<std::vector<double>> result(fields.size(), std::vector<double>(places.size()));
+  for (std::size_t f = 0; f < fields.size(); ++f)
     parallel_for(places.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        if (places[i].face < 0) continue;
-        const Triangle& t = mesh.triangles[at(places[i].face)];
-        std::array<double, 3> corner;
-        std::array<std::array<double, 2>, 3> toward;
-        for (std::size_t k = 0; k < 3; ++k) {
-          corner[k] = field[at(t[k])];
-          for (std::size_t side = 0; side < 2; ++side)
-            toward[k][side] = gradient[at(t[k])].dot(vec(points[at(t[(k + 1 + side) % 3])]) - vec(points[at(t[k])]));
-        }
-        values[i] = cubic_triangle(corner, toward, places[i].v, places[i].w);
-      }
+      for (std::size_t i = begin; i < end; ++i)
+        if (places[i].face >= 0) result[f][i] = anywhere.at(f, places[i]);
     });
-  }
   return result;
 }
 

@@ -10,6 +10,10 @@
 
 namespace pelage {
 
+/// At (1-v-w) a + v b + w c of a triangle whose surface has these unit normals at its corners (cubic_triangle.h).
+Point smooth_point(const Triangle& triangle, const std::vector<Point>& points, const std::vector<Point>& normals,
+                   double v, double w);
+
 class SimulationMesh {
  public:
   struct Edge {
@@ -37,8 +41,24 @@ class SimulationMesh {
   int levels_;                     ///< between that and the shape
 };
 
-/// Fields that are given at the vertices of a mesh at other places of it: smooth along its edges, and at its vertices
-/// with the mean gradient of the triangles there. 0 at places that are on no face.
+/// Fields that are given at the vertices of a mesh, anywhere on it: smooth along its edges, and at its vertices with
+/// the mean gradient of the triangles there.
+class MeshFields {
+ public:
+  /// Keeps references to all of them.
+  MeshFields(const std::vector<Triangle>& triangles, const std::vector<Point>& points,
+             const std::vector<std::vector<double>>& fields);
+  /// On a face. Thread-safe.
+  double at(std::size_t field, const MeshPlace& place) const;
+
+ private:
+  const std::vector<Triangle>& triangles_;
+  const std::vector<Point>& points_;
+  const std::vector<std::vector<double>>& fields_;
+  std::vector<std::vector<Point>> gradients_;
+};
+
+/// The same at many places; 0 at those that are on no face.
 std::vector<std::vector<double>> fields_at(const std::vector<MeshPlace>& places, const Topology& mesh,
                                            const std::vector<Point>& points,
                                            const std::vector<std::vector<double>>& fields);

@@ -19,6 +19,7 @@
 #include "pelage/error.h"
 #include "pelage/io.h"
 #include "shape/split_corners.h"
+#include "shape/tangents.h"
 
 namespace pelage {
 
@@ -315,15 +316,19 @@ TriangleMesh extract(const TriangleMesh& mesh, const std::vector<std::size_t>& f
   return part;
 }
 
-/// Adds a mesh, and the node in which it stands.
-void add_object(tinygltf::Model& model, const TriangleMesh& original, const std::string& name, const Placement& place) {
+/// Adds a mesh, and the node in which it stands. `tangents`: whether normal maps are read with its "tangent".
+void add_object(tinygltf::Model& model, const TriangleMesh& original, bool tangents, const std::string& name,
+                const Placement& place) {
   const Attribute* material = labels(original, "material");
   const TriangleMesh mesh = split_corners(with_colors_at_corners(original));
   tinygltf::Primitive primitive;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
   primitive.attributes["POSITION"] = add_positions(model, mesh.points, place.origin);
   for (const Attribute& attribute : mesh.attributes)
-    if (attribute.domain == Domain::vertex) add_attribute(model, primitive, attribute);
+    if (tangents && attribute.name == "tangent")
+      primitive.attributes["TANGENT"] = add_floats(model, {attribute.values.begin(), attribute.values.end()}, 4);
+    else if (attribute.domain == Domain::vertex)
+      add_attribute(model, primitive, attribute);
   tinygltf::Mesh object;
   object.name = as_utf8(name);
   for (const auto& [label, faces] : faces_by_label(material, mesh.triangles.size())) {
@@ -350,9 +355,9 @@ void add_materials(tinygltf::Model& model, const TriangleMesh& mesh) {
     model.materials.push_back(coat_material(as_utf8(label_of(material, i, "coat")), !closed));
 }
 
-/// As PNG, the base colour of all materials.
-void add_texture(tinygltf::Model& model, const Image& texture) {
-  const std::string png = png_bytes(texture);
+/// As PNG; returns the number of the texture.
+int add_texture(tinygltf::Model& model, const Pixels& pixels) {
+  const std::string png = png_bytes(pixels);
   std::vector<unsigned char>& data = model.buffers[0].data;
   constexpr std::size_t whole = 4;  // arrays that follow begin at multiples of their numbers' size
   tinygltf::BufferView view;
@@ -366,15 +371,81 @@ void add_texture(tinygltf::Model& model, const Image& texture) {
   image.bufferView = static_cast<int>(model.bufferViews.size());
   model.bufferViews.push_back(view);
   model.images.push_back(image);
+  tinygltf::Texture reference;
+  reference.sampler = 0;
+  reference.source = static_cast<int>(model.images.size()) - 1;
+  model.textures.push_back(reference);
+  return static_cast<int>(model.textures.size()) - 1;
+}
+
+void add_sampler(tinygltf::Model& model, bool repeat) {
   tinygltf::Sampler sampler;
   sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
   sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
-  sampler.wrapS = sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+  sampler.wrapS = sampler.wrapT = repeat ? TINYGLTF_TEXTURE_WRAP_REPEAT : TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
   model.samplers.push_back(sampler);
-  tinygltf::Texture reference;
-  reference.source = reference.sampler = 0;
-  model.textures.push_back(reference);
-  for (tinygltf::Material& m : model.materials) m.pbrMetallicRoughness.baseColorTexture.index = 0;
+}
+
+/// Bytes of images beside each other: of each target channel an image and its channel, or a byte that is the same
+/// everywhere.
+struct Source {
+  const Pixels* pixels;
+  int channel;
+  std::uint8_t otherwise;
+};
+Pixels packed(const Pixels& like, const std::vector<Source>& sources) {
+  const std::size_t n = sources.size(), count = static_cast<std::size_t>(like.width) * like.height;
+  Pixels result{like.width, like.height, static_cast<int>(n), std::vector<std::uint8_t>(n * count)};
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto& [from, channel, otherwise] = sources[k];
+    for (std::size_t i = 0; i < count; ++i)
+      result.bytes[n * i + k] = from ? from->bytes[from->channels * i + channel] : otherwise;
+  }
+  return result;
+}
+
+/// The opacity is the alpha of the colour.
+void add_color(tinygltf::Model& model, tinygltf::Material& material, const TextureMaps& maps) {
+  if (!maps.color) return;
+  const Pixels *color = maps.color.get(), *alpha = maps.opacity.get();
+  material.pbrMetallicRoughness.baseColorTexture.index =
+      add_texture(model, alpha ? packed(*color, {{color, 0, 0}, {color, 1, 0}, {color, 2, 0}, {alpha, 0, 0}}) : *color);
+  if (alpha) material.alphaMode = "BLEND";
+}
+
+/// Roughness is green and metalness blue; what there is no image of is what it is without one.
+void add_surface(tinygltf::Model& model, tinygltf::Material& material, const TextureMaps& maps) {
+  if (!maps.roughness && !maps.metalness) return;
+  tinygltf::PbrMetallicRoughness& pbr = material.pbrMetallicRoughness;
+  const Pixels *rough = maps.roughness.get(), *metal = maps.metalness.get();
+  pbr.metallicRoughnessTexture.index =
+      add_texture(model, packed(rough ? *rough : *metal, {{nullptr, 0, 255}, {rough, 0, 255}, {metal, 0, 255}}));
+  if (rough) pbr.roughnessFactor = 1;
+  if (metal) pbr.metallicFactor = 1;
+}
+
+/// Each set of images once, whichever materials have it.
+void add_textures(tinygltf::Model& model, const std::vector<TextureMaps>& maps, bool repeat) {
+  add_sampler(model, repeat);
+  for (std::size_t i = 0; i < model.materials.size(); ++i) {
+    tinygltf::Material& material = model.materials[i];
+    if (i > 0 && maps.size() == 1) {
+      const std::string name = material.name;
+      material = model.materials[0];
+      material.name = name;
+      continue;
+    }
+    add_color(model, material, maps[i]);
+    add_surface(model, material, maps[i]);
+    if (maps[i].normal) material.normalTexture.index = add_texture(model, *maps[i].normal);
+    if (!maps[i].emission) continue;
+    material.emissiveTexture.index = add_texture(model, *maps[i].emission);
+    material.emissiveFactor = {1, 1, 1};
+  }
+}
+
+bool has_normal_map(const std::vector<TextureMaps>& maps) {
+  return std::ranges::any_of(maps, [](const TextureMaps& m) { return m.normal != nullptr; });
 }
 
 }  // namespace
@@ -382,21 +453,23 @@ void add_texture(tinygltf::Model& model, const Image& texture) {
 std::string encode_glb(const TriangleMesh& original, const GlbOptions& options) {
   if (original.triangles.empty()) throw Error(Fault::output, "a GLB file needs at least one triangle");
   TriangleMesh mesh = original;
-  if (options.texture) std::erase_if(mesh.attributes, [](const Attribute& a) { return a.name == "color"; });
+  if (!options.textures.empty()) std::erase_if(mesh.attributes, [](const Attribute& a) { return a.name == "color"; });
   if (options.up == UpAxis::z) stand_up(mesh);
   const Placement place = placement_of(mesh);
+  const bool tangents = has_normal_map(options.textures);
+  if (tangents) mesh.set(corner_tangents(mesh));
   tinygltf::Model model;
   model.asset.generator = "pelage";
   model.buffers.resize(1);
   model.scenes.resize(1);
   model.defaultScene = 0;
   add_materials(model, mesh);
-  if (options.texture) add_texture(model, *options.texture);
+  if (!options.textures.empty()) add_textures(model, options.textures, options.repeat);
   const Attribute* object = labels(mesh, "object");
   const auto objects = faces_by_label(object, mesh.triangles.size());
   std::vector<std::int32_t> number(mesh.points.size(), -1);
   for (const auto& [label, faces] : objects)
-    add_object(model, objects.size() > 1 ? extract(mesh, faces, number) : mesh,
+    add_object(model, objects.size() > 1 ? extract(mesh, faces, number) : mesh, tangents,
                objects.size() > 1 ? label_of(object, label, options.name) : options.name, place);
   constexpr std::size_t room_for_json = 1 << 20;
   if (model.buffers[0].data.size() > std::numeric_limits<std::uint32_t>::max() - room_for_json)

@@ -1,11 +1,16 @@
 #pragma once
 // Material libraries of OBJ files (MTL).
 
+#include <map>
 #include <string>
 
 namespace pelage {
 
-/// The text of a library with one material, whose colour is that of an image.
-std::string mtl_text(const std::string& material, const std::string& image);
+/// The images of a material by what they show: "color", "normal" (in tangent space), "roughness", "metalness",
+/// "opacity", "emission".
+using MtlMaps = std::map<std::string, std::string>;
+
+/// The text of one material of a library, with the statements of the common extension for physically based materials.
+std::string mtl_text(const std::string& material, const MtlMaps& maps);
 
 }  // namespace pelage

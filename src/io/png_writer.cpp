@@ -21,6 +21,9 @@ namespace {
 
 constexpr int channels = 3;
 constexpr char difference_to_the_left = 1;  // a filter
+constexpr std::size_t rows_at_a_time = 16;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// One row: which filter was used, and then each byte less the one of the pixel to the left. That compresses as well as
 /// the best of all filters for each row.
@@ -46,7 +49,6 @@ std::string filtered(const Image& image, const std::string& path) {
   const std::size_t samples = std::size_t{channels} * static_cast<std::size_t>(image.width);
   std::string rows((samples + 1) * static_cast<std::size_t>(image.height), '\0');
   const SrgbBytes bytes;
-  constexpr std::size_t at_a_time = 16;
   parallel_for(
       static_cast<std::size_t>(image.height),
       [&](std::size_t begin, std::size_t end) {
@@ -54,7 +56,25 @@ std::string filtered(const Image& image, const std::string& path) {
           filter_row({image.rgb.data() + y * samples, samples}, bytes,
                      reinterpret_cast<std::uint8_t*>(rows.data()) + y * (samples + 1));
       },
-      at_a_time);
+      rows_at_a_time);
+  return rows;
+}
+
+/// The bytes of a row less those of the pixel to the left.
+std::string filtered(const Pixels& pixels) {
+  const std::size_t row = at(pixels.channels) * at(pixels.width), n = at(pixels.channels);
+  std::string rows((row + 1) * at(pixels.height), difference_to_the_left);
+  parallel_for(
+      at(pixels.height),
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t y = begin; y < end; ++y) {
+          const std::uint8_t* from = &pixels.bytes[y * row];
+          char* to = &rows[y * (row + 1) + 1];
+          std::copy_n(from, n, to);
+          for (std::size_t i = n; i < row; ++i) to[i] = static_cast<char>(from[i] - from[i - n]);
+        }
+      },
+      rows_at_a_time);
   return rows;
 }
 
@@ -85,7 +105,7 @@ void check_size(std::int64_t width, std::int64_t height, std::int64_t pixel_byte
               {path});
 }
 
-enum class ColorType : char { grey = 0, rgb = 2 };
+enum class ColorType : char { grey = 0, rgb = 2, rgb_and_alpha = 6 };
 
 std::string file_of(int width, int height, char bits, ColorType type, const std::string& rows) {
   std::string header;
@@ -150,6 +170,22 @@ std::string grey_png_bytes(int width, int height, const std::vector<std::uint16_
 }
 
 std::string png_bytes(const Image& image) { return encode_png(image, ""); }
+
+namespace {
+
+std::string encode_png(const Pixels& pixels, const std::string& path) {
+  assert(std::ssize(pixels.bytes) == std::ptrdiff_t{pixels.channels} * pixels.width * pixels.height);
+  check_size(pixels.width, pixels.height, pixels.channels, path);
+  const ColorType type = pixels.channels == 1   ? ColorType::grey
+                         : pixels.channels == 3 ? ColorType::rgb
+                                                : ColorType::rgb_and_alpha;
+  return file_of(pixels.width, pixels.height, 8, type, filtered(pixels));
+}
+
+}  // namespace
+
+std::string png_bytes(const Pixels& pixels) { return encode_png(pixels, ""); }
+void write_png(const Pixels& pixels, const std::string& path) { write_file(path, encode_png(pixels, path)); }
 
 void write_png(const Image& image, const std::string& path) { write_file(path, encode_png(image, path)); }
 

@@ -79,7 +79,7 @@ Keeping glb_keeps(const Attribute& a) {
 Keeping vtp_keeps(const Attribute& a) { return ply_keeps(a); }
 
 std::string encode_named_glb(const TriangleMesh& mesh, const SaveOptions& options) {
-  return encode_glb(mesh, {options.name, options.up, options.texture});
+  return encode_glb(mesh, {options.name, options.up, options.textures, options.repeat});
 }
 
 TriangleMesh triangles_of(const PolygonMesh& mesh) {

@@ -67,6 +67,7 @@ Places places_of(const CoatSamples& s, const std::vector<std::string>& species) 
   places.length_unit = s.length_unit;
   places.origin = s.origin;
   places.period = s.period;
+  places.box = s.box;
   return places;
 }
 

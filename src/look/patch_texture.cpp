@@ -177,6 +177,7 @@ CoatSamples empty_like(const CoatSamples& s) {
   empty.origin = s.origin;
   empty.period = s.period;
   empty.seed = s.seed;
+  empty.box = s.box ? s.box : box_of(s.position);
   return empty;
 }
 

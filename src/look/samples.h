@@ -1,8 +1,10 @@
 #pragma once
 // Samples of a coat, wherever they lie: at vertices of a mesh, at texels of an image.
 
+#include <optional>
 #include <vector>
 
+#include "base/box.h"
 #include "discretise/curvature.h"
 #include "shape/scalar_attributes.h"
 
@@ -20,6 +22,7 @@ struct CoatSamples {
   Point origin{};                           ///< from where random fields count
   Point period{};                           ///< after which smooth ones repeat; 0: never
   std::uint64_t seed = 1;                   ///< of random fields
+  std::optional<Box> box = {};              ///< of the shape, where the samples are only a part of it
 
   std::size_t size() const { return position.size(); }
 };

@@ -109,6 +109,7 @@ class Tessellator {
     find_places(t.samples);
     add_fields(t.samples);
     if (request_.curvature) add_curvature(t.samples);
+    t.on_mesh = std::move(places_);
     t.attributes = kept_attributes(fields_.shape->attributes);
     t.links = fields_.shape->links;
     for (Attribute& a : t.attributes) levels_.interpolate(a, 0, levels_.finest());

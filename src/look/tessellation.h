@@ -13,6 +13,7 @@ struct Tessellation {
   std::vector<Attribute> attributes;           ///< of the shape but for its normals
   std::vector<FileLink> links;                 ///< of the shape
   std::optional<double> metres_per_unit = {};  ///< of the shape
+  std::vector<MeshPlace> on_mesh = {};  ///< of the samples on the mesh of the fields, if they have one of their own
 };
 
 /// Which tessellation a look asks for.

@@ -6,10 +6,12 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "base/box.h"
 #include "pelage/point.h"
 #include "react/model.h"
 #include "react/tape.h"
@@ -34,6 +36,7 @@ struct Places {
   std::span<const DrawnField> drawn = {};  ///< random fields that places which move carry along; others are drawn where
                                            ///< the places are
   std::span<const double> mask = {};       ///< of the stage
+  std::optional<Box> box = {};             ///< of the shape, where the places are only a part of it
 };
 
 /// Species values: u[s][i] is the concentration of species s at sample i.

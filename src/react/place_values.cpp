@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/parallel.h"
 #include "base/random.h"
@@ -72,14 +71,11 @@ std::vector<double> random_values(const Symbol& symbol, const Places& places, st
   });
 }
 
-std::vector<double> box_positions(std::span<const Point> positions, std::size_t component) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Point& p : positions) {
-    low = std::min(low, p[component]);
-    high = std::max(high, p[component]);
-  }
-  return tabulate(positions.size(), [&](std::size_t i) {
-    return high > low ? (2 * positions[i][component] - low - high) / (high - low) : 0;
+std::vector<double> box_positions(const Places& places, std::size_t component) {
+  const Box box = places.box ? *places.box : box_of(places.positions);
+  const double low = box.low[component], high = box.high[component];
+  return tabulate(places.positions.size(), [&](std::size_t i) {
+    return high > low ? (2 * places.positions[i][component] - low - high) / (high - low) : 0;
   });
 }
 
@@ -92,7 +88,7 @@ std::vector<double> place_values(const Symbol& symbol, const Places& places, std
     case Symbol::Kind::position:
       return tabulate(size, [&](std::size_t i) { return places.positions[i][component]; });
     case Symbol::Kind::box_position:
-      return box_positions(places.positions, component);
+      return box_positions(places, component);
     case Symbol::Kind::normal_vector:
       require(places.normals.size() == size, "normals", symbol);
       return tabulate(size, [&](std::size_t i) { return places.normals[i][component]; });

@@ -160,6 +160,15 @@ TEST(PatchImages, ShowTheFieldWhereItIs) {
   });
 }
 
+/// Formulas count places from the middle of the whole shape, whichever texels are painted at a time.
+TEST(PatchImages, HaveTheBoxOfTheWholeShape) {
+  const Atlas atlas = sew({flat_patch("a", 9, 6, 0), flat_patch("b", 12, 6, 1), flat_patch("c", 5, 4, 3)});
+  const CoatFields coat = coat_on(atlas, [](const Point& p) { return (p[0] - 2) / 2; });
+  const PatchLayout layout = lay_out(atlas, 128);
+  const auto shown = [&](const char* formula) { return joined(patch_images(coat, painted(formula), layout), layout); };
+  EXPECT_EQ(shown("0.5 + 0.5*bx").rgb, shown("0.5 + 0.5*u").rgb);
+}
+
 /// The least distance of one that smaller copies may reach into the gutter.
 TEST(PatchImages, SmallerCopiesFindNoOtherColours) {
   const Atlas atlas = sew({flat_patch("black", 9, 6, 0), flat_patch("white", 12, 6, 2)});

@@ -72,8 +72,8 @@ grep -q 'metres_per_unit.*>CAAAAAAAAAD8qfHSTWJQPw==<' unit.vti || fail "--input-
 grows gallery turing --shape 'builtin:tile?n=32' --shape builtin:moebius --size 12px --picture-size 64 -o gallery -q
 # Patches with images: the mesh names what is beside it, and the vertices have no colours that would darken these.
 grows grow builtin:vase --recipe leopard --size 0.2 --steps 5 --bake 256 -o v.glb,v.obj,v.png --patch-images patches
-for file in v.mtl patches/*.png; do [ -s "$file" ] || fail "--bake: no $file"; done
-grep -q '^mtllib v.mtl' v.obj && grep -q '^usemtl coat' v.obj && grep -q '^map_Kd v.png' v.mtl || fail "v.obj and its image"
+for file in v.mtl v-color.png patches/*.png; do [ -s "$file" ] || fail "--bake: no $file"; done
+grep -q '^mtllib v.mtl' v.obj && grep -q '^usemtl coat' v.obj && grep -q '^map_Kd v-color.png' v.mtl || fail "v.obj and its image"
 ! grep -qE '^v( [^ ]+){4}' v.obj || fail "v.obj has colours at its vertices"
 grep -qa 'baseColorTexture' v.glb || fail "v.glb has no texture"
 
@@ -92,7 +92,13 @@ refused 2 'coloured at its own nodes' grow builtin:sphere --solid --keep-shape -
 refused 2 'a line does in the course of time' grow 'builtin:tile?n=48' --plot a.png
 refused 2 'a block has no height' grow 'builtin:box?n=8' --model turing --size 4px --height-map a.png
 refused 2 'for sheets of grids' grow 'builtin:sphere?n=642' --height-map a.png
-refused 2 'are for patches' grow 'builtin:sphere?n=642' --bake 256 -o a.glb
+refused 2 'the shape has no uv' grow 'builtin:sphere?n=642' --bake 256 -o a.glb
+refused 2 'leave --flat and --detail out' grow 'builtin:sphere?n=642' --bake 256 --flat -o a.glb
+refused 2 'shows an image on a mesh' grow builtin:vase --bake 256 -o a.ply
+refused 2 'at most 16384' grow builtin:vase --bake 100000 -o a.glb
+refused 2 '16' grow builtin:vase --bake 3 -o a.glb
+refused 5 'missing' grow builtin:vase --maps missing/a
+refused 2 'of a grid write a .png' grow 'builtin:tile?n=48' --bake 256 -o a.glb
 refused 2 'no room for a texel' grow builtin:vase --bake 32 -o a.glb
 refused 2 'a grid for the shape' grow 'builtin:sphere?n=642' --preview 3x3 --picture a.png
 

@@ -1,0 +1,40 @@
+#pragma once
+// A coat as images on the uv of its mesh. At every texel the coat is evaluated on the surface: in its middle and, where
+// colours bend or there are normals, at four places around it.
+
+#include <map>
+
+#include "look/coat_sampler.h"
+#include "look/uv_layout.h"
+#include "pelage/texture_maps.h"
+
+namespace pelage {
+
+/// What a mesh shows at the corners of its triangles: normal maps count from there.
+struct ShadingFrames {
+  std::vector<Point> normal, tangent;  ///< unit length, three per triangle
+  std::vector<char> mirrored;          ///< whether bitangent = -cross(normal, tangent)
+
+  /// Of a mesh that has "uv": its own "normal" or else the means of its triangles.
+  explicit ShadingFrames(TriangleMesh mesh);
+};
+
+struct BakedTile {
+  int number = 1001;
+  Pixels color;                       ///< sRGB
+  Pixels normal;                      ///< empty without frames
+  Pixels emission;                    ///< sRGB; empty where the paint has none
+  std::map<Channel, Pixels> greys{};  ///< roughness, metalness and opacity, where the paint has them
+  std::vector<float> height;          ///< [world units] of the paint, or else the values of the shown species
+};
+
+struct BakedCoat {
+  std::vector<BakedTile> tiles;  ///< those of the layout
+  UvNote hidden{UvNote::Kind::overlapping};
+};
+
+/// `frames`: of the shape, for a normal map of the height; or null. Texels that show nothing have the mean of the
+/// others.
+BakedCoat bake(const CoatSampler& coat, const Palette& palette, const UvLayout& layout, const ShadingFrames* frames);
+
+}  // namespace pelage

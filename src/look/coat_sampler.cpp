@@ -1,0 +1,137 @@
+#include "look/coat_sampler.h"
+
+#include <algorithm>
+
+#include "base/suggest.h"
+#include "pelage/cells.h"
+#include "shape/locate.h"
+#include "shape/refine.h"
+#include "shape/vectors.h"
+
+namespace pelage {
+
+namespace {
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+bool reads(const Paint& paint, std::size_t species) {
+  return species == paint.shown || std::ranges::any_of(paint.symbols(), [&](const Symbol& s) {
+           return s.kind == Symbol::Kind::attribute && matching_name(s.name, {paint.species[species]});
+         });
+}
+
+/// Samples of a part of a shape.
+CoatSamples part_of(const CoatSamples& whole) {
+  CoatSamples part;
+  part.length_unit = whole.length_unit;
+  part.wavelength = whole.wavelength;
+  part.origin = whole.origin;
+  part.period = whole.period;
+  part.seed = whole.seed;
+  part.box = box_of(whole.position);
+  return part;
+}
+
+}  // namespace
+
+CoatSampler::CoatSampler(const CoatFields& fields, const Tessellation& tessellation, const Paint& paint)
+    : fields_(fields),
+      t_(tessellation),
+      shared_(part_of(tessellation.samples)),
+      smooth_(!fields.nodes && fields.method->smooth) {
+  for (std::size_t i = 0; i < fields.species.size(); ++i) needed_.push_back(reads(paint, i));
+  for (std::size_t faces = triangles().size(); faces < t_.triangles.size(); faces *= 4) ++levels_;
+  if (fields.mesh) {
+    const Topology& mesh = *fields.mesh->shared_topology();
+    walk_ = std::make_unique<const SurfaceWalk>(mesh, fields.space->control());
+    anywhere_ = std::make_unique<const MeshFields>(mesh.triangles, fields.space->control(), fields.coefficients);
+  } else if (smooth_) {
+    anywhere_ = std::make_unique<const MeshFields>(t_.triangles, t_.samples.position, t_.samples.fields);
+  }
+}
+
+CoatSampler::~CoatSampler() = default;
+
+const std::vector<Triangle>& CoatSampler::triangles() const {
+  const Cells* cells = as<Cells>(fields_.nodes);
+  return cells ? cells->on->triangles : fields_.shape->triangles;
+}
+
+CoatSampler::Spot CoatSampler::spot_of(MeshPlace place) const {
+  double v = std::max(place.v, 0.0), w = std::max(place.w, 0.0);
+  if (v + w > 1) {
+    const double sum = v + w;
+    v /= sum;
+    w = 1 - v;
+  }
+  double beyond_v = place.v - v, beyond_w = place.w - w;
+  MeshPlace fine{place.face, v, w};
+  for (int level = 0; level < levels_; ++level) {
+    fine = in_child(fine);
+    const double factor = fine.face % 4 == 3 ? -2 : 2;
+    beyond_v *= factor;
+    beyond_w *= factor;
+  }
+  return {at(fine.face), fine.v, fine.w, beyond_v, beyond_w};
+}
+
+Point CoatSampler::position(const Spot& s) const {
+  const Triangle& t = t_.triangles[s.face];
+  const std::vector<Point>& points = t_.samples.position;
+  const MeshPlace place{static_cast<Index>(s.face), s.v, s.w};
+  Point p = smooth_ ? smooth_point(t, points, t_.samples.normal, s.v, s.w) : point_at(t_.triangles, points, place);
+  if (!walk_ || (s.beyond_v == 0 && s.beyond_w == 0)) return p;
+  const Point &a = points[at(t[0])], &b = points[at(t[1])], &c = points[at(t[2])];
+  for (std::size_t k = 0; k < 3; ++k) p[k] += s.beyond_v * (b[k] - a[k]) + s.beyond_w * (c[k] - a[k]);
+  return p;
+}
+
+/// Of the mesh of the fields.
+Index CoatSampler::near_face(const Spot& s) const {
+  const std::size_t corner = s.v >= s.w ? (s.v > 0.5 ? 1 : 0) : (s.w > 0.5 ? 2 : 0);
+  return walk_ ? t_.on_mesh[at(t_.triangles[s.face][corner])].face : -1;
+}
+
+MeshPlace CoatSampler::field_place(const Spot& s, const Point& position, Index near) const {
+  if (!walk_) return {static_cast<Index>(s.face), s.v, s.w};
+  return walk_->closest(Eigen::Vector3d(position.data()), near);
+}
+
+double CoatSampler::field(std::size_t i, const MeshPlace& place) const {
+  return anywhere_ ? anywhere_->at(i, place) : value_at(t_.triangles, t_.samples.fields[i], place);
+}
+
+CoatSamples CoatSampler::samples(std::span<const MeshPlace> places) const {
+  const CoatSamples& from = t_.samples;
+  CoatSamples s = shared_;
+  s.fields.resize(needed_.size());
+  for (std::size_t f = 0; f < needed_.size(); ++f) s.fields[f].resize(needed_[f] ? places.size() : 0);
+  std::vector<MeshPlace> linear;
+  linear.reserve(places.size());
+  for (auto* points : {&s.position, &s.normal}) points->reserve(places.size());
+  MeshPlace on_fields;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Spot spot = spot_of(places[i]);
+    const MeshPlace& fine = linear.emplace_back(MeshPlace{static_cast<Index>(spot.face), spot.v, spot.w});
+    s.position.push_back(position(spot));
+    s.normal.push_back(unit(point_at(t_.triangles, from.normal, fine)));
+    if (!from.drawn_at.empty()) s.drawn_at.push_back(point_at(t_.triangles, from.drawn_at, fine));
+    // Neighbours in a row of texels are neighbours on the surface.
+    const bool goes_on = i > 0 && linear[i - 1].face == fine.face;
+    on_fields = field_place(spot, s.position.back(), goes_on ? on_fields.face : near_face(spot));
+    for (std::size_t f = 0; f < needed_.size(); ++f)
+      if (needed_[f]) s.fields[f][i] = field(f, on_fields);
+  }
+  const auto interpolated = [&](const std::vector<double>& values) {
+    std::vector<double> result;
+    result.reserve(values.empty() ? 0 : linear.size());
+    for (const MeshPlace& place : linear)
+      if (!values.empty()) result.push_back(value_at(t_.triangles, values, place));
+    return result;
+  };
+  s.curvature = {interpolated(from.curvature.k1), interpolated(from.curvature.k2)};
+  for (const auto& [name, values] : from.attributes) s.attributes[name] = interpolated(values);
+  return s;
+}
+
+}  // namespace pelage

@@ -1,0 +1,50 @@
+#pragma once
+// A coat at any place of the mesh that it has grown on.
+
+#include <memory>
+#include <span>
+
+#include "look/tessellation.h"
+
+namespace pelage {
+
+class SurfaceWalk;
+class MeshFields;
+
+class CoatSampler {
+ public:
+  /// `tessellation`: of these fields, on the surface that they have grown on. Of the fields only those that the paint
+  /// reads are sampled. Keeps references to all.
+  CoatSampler(const CoatFields& fields, const Tessellation& tessellation, const Paint& paint);
+  ~CoatSampler();
+
+  /// The triangles on which places are counted: those of the shape.
+  const std::vector<Triangle>& triangles() const;
+  /// On the surface, at these places of the shape's triangles. Fields are what they are on their own mesh, there where
+  /// the surface lies; beyond a triangle its plane goes on, to the place of the fields' mesh that is nearest, or, where
+  /// they have none, only to the border. Thread-safe.
+  CoatSamples samples(std::span<const MeshPlace> places) const;
+
+ private:
+  /// A place on the tessellation, and how far the one that was asked for lies beyond it.
+  struct Spot {
+    std::size_t face;
+    double v, w, beyond_v, beyond_w;
+  };
+  Spot spot_of(MeshPlace place) const;
+  Point position(const Spot& spot) const;
+  MeshPlace field_place(const Spot& spot, const Point& position, Index near) const;
+  Index near_face(const Spot& spot) const;
+  double field(std::size_t i, const MeshPlace& place) const;
+
+  const CoatFields& fields_;
+  const Tessellation& t_;
+  CoatSamples shared_;  ///< what all samples have in common
+  std::vector<char> needed_;
+  int levels_ = 0;  ///< how often the triangles of the shape are split
+  bool smooth_;
+  std::unique_ptr<const SurfaceWalk> walk_;  ///< on the mesh of the fields
+  std::unique_ptr<const MeshFields> anywhere_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,249 @@
+#include "look/bake.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "base/srgb.h"
+#include "discretise/surface_evaluator.h"
+#include "shape/generators.h"
+#include "shape/vectors.h"
+
+namespace pelage {
+namespace {
+
+using std::numbers::pi;
+using Field = double (*)(const Point&);
+
+/// The built-in torus with its two angles as uv, which has seams along both; `mirrored`: half of it once more the other
+/// way round, beside the rest.
+TriangleMesh torus(int vertices) {
+  TriangleMesh mesh = builtin_shape("builtin:torus?n=" + std::to_string(vertices));
+  Attribute uv{"uv", 2, Domain::corner, {}};
+  for (const Triangle& t : mesh.triangles) {
+    std::array<double, 2> first{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point& p = mesh.points[static_cast<std::size_t>(t[k])];
+      std::array<double, 2> turns = {std::atan2(p[1], p[0]) / (2 * pi) + 0.5,
+                                     std::atan2(p[2], std::hypot(p[0], p[1]) - 1) / (2 * pi) + 0.5};
+      if (k == 0) first = turns;
+      for (std::size_t c = 0; c < 2; ++c) {
+        turns[c] -= std::round(turns[c] - first[c]);
+        uv.values.push_back(0.1 + 0.7 * turns[c]);
+      }
+    }
+  }
+  mesh.set(std::move(uv));
+  return mesh;
+}
+
+/// A field "u" on an even mesh of its own, as runs have it, or on the Loop elements of the shape.
+struct Coat {
+  CoatFields fields;
+  Hierarchy levels;
+  std::vector<Point> control;
+
+  Coat(TriangleMesh shape, const Method& method, double edge, Field field)
+      : levels(make_topology(shape.points.size(), shape.triangles), method.refine), control(shape.points) {
+    if (method.own_mesh) {
+      fields.mesh = std::make_shared<const SimulationMesh>(levels, control, SimulationMesh::Edge{edge, {}}, 1'000'000);
+      fields.space = method.make_space(fields.mesh->shared_topology(), fields.mesh->points(control));
+    } else {
+      fields.space = method.make_space(levels.shared_topology(0), control);
+    }
+    fields.points = shape.points;
+    fields.shape = std::make_shared<const TriangleMesh>(std::move(shape));
+    fields.hierarchy = std::make_shared<const Hierarchy>(levels);
+    fields.method = &method;
+    fields.control = control;
+    fields.species = {"u"};
+    fields.uniform = {0};
+    fields.wavelength = 12 * edge;
+    const SampledMass mass = fields.space->sampled(SampleRule::vertices);
+    Vector samples(mass.sampling->count());
+    for (Eigen::Index i = 0; i < samples.size(); ++i)
+      samples[i] = field(mass.sampling->position[static_cast<std::size_t>(i)]);
+    const Vector u = coefficients_from_samples(*mass.sampling, *mass.mass, samples);
+    fields.coefficients.emplace_back(u.begin(), u.end());
+  }
+
+  /// The limit surface of the shape itself, without the mesh of the fields.
+  SurfaceEvaluator surface() const {
+    const TriangleMesh& shape = *fields.shape;
+    return SurfaceEvaluator(loop_method.make_space(levels.shared_topology(0), shape.points), 0, {});
+  }
+};
+
+/// White paint as thick as the formula says, on black.
+Look painted(const std::string& formula) {
+  Look look;
+  look.layers.resize(2);
+  look.layers[0].color = {"#000000", {}};
+  look.layers[1].color = {"#ffffff", {}};
+  look.layers[1].opacity = {formula, {}};
+  return look;
+}
+
+BakedCoat baked(const Coat& coat, const Look& look, int size, bool normals = false) {
+  const Paint paint = resolve_paint(look, coat.fields.species);
+  const Tessellation t = tessellate(coat.fields, tessellation_request(look, paint));
+  const TriangleMesh& shape = *coat.fields.shape;
+  const UvLayout layout(shape.triangles, *shape.find("uv"), size);
+  const ShadingFrames frames(shape);
+  return bake(CoatSampler(coat.fields, t, paint), make_palette(paint, t.samples, coat.fields.uniform), layout,
+              normals ? &frames : nullptr);
+}
+
+/// What a viewer finds between the middles of texels, in linear light.
+double seen(const Pixels& image, double u, double v) {
+  const double x = u * image.width - 0.5, y = (1 - v) * image.height - 0.5;
+  const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
+  double sum = 0;
+  for (const int di : {0, 1})
+    for (const int dj : {0, 1}) {
+      const std::size_t texel = static_cast<std::size_t>(j + dj) * image.width + static_cast<std::size_t>(i + di);
+      sum += (di ? x - i : 1 - x + i) * (dj ? y - j : 1 - y + j) *
+             linear_from_srgb(image.bytes[static_cast<std::size_t>(image.channels) * texel] / 255.0);
+    }
+  return sum;
+}
+
+/// visit(place, uv) for places on all faces; every third one on an edge, where the seams are.
+template <class Visit>
+void at_random_places(const TriangleMesh& mesh, std::size_t count, const Visit& visit) {
+  const Attribute& uv = *mesh.find("uv");
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t face = hash(7, i) % mesh.triangles.size();
+    double v = uniform(i, 0), w = i % 3 == 0 ? 0 : uniform(i, 1);
+    if (v + w > 1) v = 1 - v, w = 1 - w;
+    std::array<double, 2> at{};
+    for (std::size_t c = 0; c < 2; ++c)
+      for (const auto& [k, share] : {std::pair{0, 1 - v - w}, {1, v}, {2, w}})
+        at[c] += share * uv.values[2 * (3 * face + static_cast<std::size_t>(k)) + c];
+    visit(MeshPlace{static_cast<Index>(face), v, w}, at);
+  }
+}
+
+double waves(const Point& p) { return 0.5 + 0.3 * std::sin(5 * p[0]) * std::cos(4 * p[1] + 3 * p[2]); }
+
+/// A field that is known everywhere, at places that the limit surface itself gives: what the images show is that.
+TEST(Bake, ShowsTheFieldWhereTheSurfaceIsSeamsIncluded) {
+  for (const Method* method : {&remeshed_method, &loop_method}) {
+    const Coat coat(torus(1000), *method, 0.03, waves);
+    const BakedCoat result = baked(coat, painted("u"), 1024);
+    ASSERT_EQ(result.tiles.size(), 1u);
+    EXPECT_EQ(result.hidden.count, 0u);
+    const SurfaceEvaluator surface = coat.surface();
+    double sum = 0;
+    std::vector<double> errors;
+    at_random_places(*coat.fields.shape, 100'000, [&](const MeshPlace& place, const std::array<double, 2>& uv) {
+      const double exact = waves(surface.at(place.face, place.v, place.w).position);
+      errors.push_back(255 *
+                       std::abs(srgb_from_linear(seen(result.tiles[0].color, uv[0], uv[1])) - srgb_from_linear(exact)));
+      sum += errors.back();
+    });
+    std::ranges::sort(errors);
+    EXPECT_LT(sum / static_cast<double>(errors.size()), 1) << method->name;
+    EXPECT_LT(errors[errors.size() * 999 / 1000], 3) << method->name;
+  }
+}
+
+/// In halves of the image down to where the gutter is a texel wide, seams are no further off than other places.
+TEST(Bake, GuttersShowTheSurfaceBeyondTheBorder) {
+  const Coat coat(torus(1000), remeshed_method, 0.05, waves);
+  const BakedCoat result = baked(coat, painted("u"), 1024);
+  const SurfaceEvaluator surface = coat.surface();
+  const std::vector<Triangle>& triangles = coat.fields.shape->triangles;
+  const UvLayout layout(triangles, *coat.fields.shape->find("uv"), 1024);
+  std::vector<Index> hidden;
+  std::size_t gutter = 0;
+  double worst = 0;
+  for (const UvLayout::Texel& t : layout.texels(0, 0, 1024, hidden)) {
+    if (t.inside) continue;
+    ++gutter;
+    // The angles go on beyond the seams.
+    const double a = 2 * pi * (((t.x + 0.5) / 1024 - 0.1) / 0.7 - 0.5),
+                 b = 2 * pi * (((1 - (t.y + 0.5) / 1024) - 0.1) / 0.7 - 0.5);
+    const double ring = 1 + 0.4 * std::cos(b);
+    const std::size_t texel = static_cast<std::size_t>(t.y) * 1024 + static_cast<std::size_t>(t.x);
+    worst = std::max(worst, std::abs(linear_from_srgb(result.tiles[0].color.bytes[3 * texel] / 255.0) -
+                                     waves({ring * std::cos(a), ring * std::sin(a), 0.4 * std::sin(b)})));
+  }
+  EXPECT_GT(gutter, 4u * 700 * 8);
+  EXPECT_LT(worst, 0.03);  // the mesh of a torus is a little smaller than a torus; the field runs from 0.2 to 0.8
+}
+
+/// Normals against those of the surface that the height has really displaced.
+TEST(Bake, NormalMapsAreTheNormalsOfTheDisplacedSurface) {
+  const Coat coat(torus(6000), remeshed_method, 0.03, waves);
+  Look look = painted("u");
+  look.channels[Channel::height] = {"0.4*u", {}};  // in wavelengths
+  const BakedCoat result = baked(coat, look, 1024, true);
+  const double unit_of_height = 0.4 * coat.fields.wavelength;
+  const SurfaceEvaluator surface = coat.surface();
+  const ShadingFrames frames(*coat.fields.shape);
+  double sum = 0, bent = 0, count = 0;
+  at_random_places(*coat.fields.shape, 3000, [&](const MeshPlace& place, const std::array<double, 2>& uv) {
+    const auto displaced = [&](double v, double w) {
+      const SurfaceSample s = surface.at(place.face, v, w);
+      Point p = s.position;
+      for (std::size_t k = 0; k < 3; ++k) p[k] += unit_of_height * waves(s.position) * s.normal[k];
+      return p;
+    };
+    constexpr double d = 0.02;
+    const double v = std::clamp(place.v, d, 1 - 3 * d), w = std::clamp(place.w, d, 1 - 2 * d - v);
+    const Point truth = unit(cross(difference(displaced(v + d, w), displaced(v - d, w)),
+                                   difference(displaced(v, w + d), displaced(v, w - d))));
+    const std::size_t texel =
+        static_cast<std::size_t>((1 - uv[1]) * 1024) * 1024 + static_cast<std::size_t>(uv[0] * 1024);
+    const auto mean = [&](const std::vector<Point>& at_corners) {
+      Point m{};
+      const std::size_t corner = 3 * static_cast<std::size_t>(place.face);
+      for (std::size_t k = 0; k < 3; ++k)
+        m[k] = (1 - v - w) * at_corners[corner][k] + v * at_corners[corner + 1][k] + w * at_corners[corner + 2][k];
+      return unit(m);
+    };
+    const Point normal = mean(frames.normal), tangent = mean(frames.tangent), bitangent = cross(normal, tangent);
+    EXPECT_FALSE(frames.mirrored[3 * static_cast<std::size_t>(place.face)]);
+    Point shown{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint8_t* rgb = &result.tiles[0].normal.bytes[3 * texel];
+      shown[k] =
+          (rgb[0] / 127.5 - 1) * tangent[k] + (rgb[1] / 127.5 - 1) * bitangent[k] + (rgb[2] / 127.5 - 1) * normal[k];
+    }
+    sum += std::acos(std::min(1.0, dot(unit(shown), truth))) * 180 / pi;
+    bent += std::acos(std::min(1.0, dot(surface.at(place.face, v, w).normal, truth))) * 180 / pi;
+    ++count;
+  });
+  EXPECT_GT(bent / count, 5);  // otherwise there is nothing to see
+  EXPECT_LT(sum / count, 2);
+}
+
+TEST(Bake, DoesNotDependOnTheThreads) {
+  const Coat coat(torus(500), remeshed_method, 0.06, waves);
+  const BakedCoat two = baked(coat, painted("u + 0.1*bx"), 128);
+  const ThreadLimit one(1);
+  EXPECT_EQ(baked(coat, painted("u + 0.1*bx"), 128).tiles[0].color.bytes, two.tiles[0].color.bytes);
+}
+
+TEST(Bake, ChannelsAreImages) {
+  const Coat coat(torus(500), remeshed_method, 0.06, waves);
+  Look look = painted("0.5");
+  look.channels[Channel::roughness] = {"u", {}};
+  look.channels[Channel::opacity] = {"0.25", {}};
+  look.channels[Channel::emission] = {"0.5", {}};
+  const BakedTile tile = std::move(baked(coat, look, 128).tiles[0]);
+  const std::size_t middle = 64 * 128 + 64;
+  EXPECT_NEAR(tile.greys.at(Channel::roughness).bytes[middle], 255 * tile.height[middle], 0.51);
+  EXPECT_EQ(tile.greys.at(Channel::opacity).bytes[middle], 64);
+  EXPECT_EQ(tile.emission.bytes[3 * middle], srgb_byte(0.25));
+  EXPECT_TRUE(tile.normal.bytes.empty());
+  EXPECT_FALSE(tile.greys.contains(Channel::metalness));
+}
+
+}  // namespace
+}  // namespace pelage

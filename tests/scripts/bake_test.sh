@@ -1,0 +1,102 @@
+#!/usr/bin/env bash
+# pelage grow --bake and --maps, from files with uv to files with images. Usage: SOURCE BINARY
+set -uo pipefail
+pelage=$2/bin/pelage
+[ -x "$pelage" ] || { echo "no $pelage: the program is not part of this build"; exit 77; }
+work=$2/bake_test
+rm -rf "$work" && mkdir -p "$work" && cd "$work" || exit 1
+failures=0
+fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
+
+# A sheet of 12 x 12 squares with the materials left and right, whose uv fills the image: u from $1 to $1 + $2.
+sheet() {
+  awk -v begin="$1" -v width="$2" 'BEGIN {
+    n = 12
+    for (j = 0; j <= n; ++j)
+      for (i = 0; i <= n; ++i) {
+        print "v", i / n, j / n, 0.05 * sin(6 * i / n)
+        print "vt", begin + width * i / n, 0.05 + 0.9 * j / n
+      }
+    for (i = 0; i < n; ++i) {
+      print "usemtl", i < n / 2 ? "left" : "right"
+      for (j = 0; j < n; ++j) {
+        a = j * (n + 1) + i + 1
+        print "f", a "/" a, a + 1 "/" a + 1, a + n + 2 "/" a + n + 2, a + n + 1 "/" a + n + 1
+      }
+    }
+  }'
+}
+bakes() { "$pelage" grow "$@" --model turing --size 0.15 --quality draft --steps 30 >out 2>err || { cat err; fail "$*"; }; }
+refused() {
+  local code=$1 text=$2
+  shift 2
+  "$pelage" grow "$@" >out 2>err
+  [ $? -eq "$code" ] || fail "no exit code $code of: $*"
+  grep -qF -- "$text" err || { cat err; fail "no \"$text\" of: $*"; }
+}
+# Width and height of a PNG, its bits and its kind of colours.
+kind() { od -An -tx1 -j16 -N10 "$1" | tr -d ' \n'; }
+
+sheet 0.05 0.9 >sheet.obj
+bakes sheet.obj --bake 64 -o a.glb,a.obj --maps m --material 'height=0.1*b' --material 'roughness=0.3' --material 'opacity=0.5'
+# The file's own squares, points and materials, with images.
+[ "$(grep -c '^f' a.obj)" = 144 ] && [ "$(grep '^f' a.obj | awk '{ print NF }' | sort -u)" = 5 ] || fail "a.obj has other faces"
+[ "$(grep '^v ' a.obj | awk '{ print $1, $2, $3 }' | sort)" = "$(grep '^v ' sheet.obj | awk '{ print $1, $2, $3 }' | sort)" ] ||
+  fail "a.obj has other points"
+for material in left right; do
+  grep -q "^usemtl $material" a.obj && grep -q "^newmtl $material" a.mtl || fail "a.obj and a.mtl: no $material"
+done
+for map in color normal roughness opacity; do
+  [ -s m-$map.png ] && cmp -s a-$map.png m-$map.png || fail "a-$map.png and m-$map.png"
+  grep -q " a-$map.png" a.mtl || fail "a.mtl does not name a-$map.png"
+done
+[ "$(kind m-color.png)" = 00000040000000400802 ] || fail "m-color.png"
+[ "$(kind m-roughness.png)" = 00000040000000400800 ] || fail "m-roughness.png"
+[ "$(kind m-height.png)" = 00000040000000401000 ] || fail "m-height.png"
+[ -s m-height.exr ] || fail "no m-height.exr"
+for word in baseColorTexture normalTexture TANGENT metallicRoughnessTexture BLEND '"left"' '"right"'; do
+  grep -qa "$word" a.glb || fail "a.glb has no $word"
+done
+! grep -qa COLOR_0 a.glb || fail "a.glb has colours at its vertices"
+[ ! -s err ] || grep -q 'cannot hold' err || fail "warnings for a good uv: $(cat err)"
+
+# The same bits on one thread; images alone, of the usual size.
+bakes sheet.obj --bake 64 --maps one --threads 1 --material 'height=0.1*b' --material 'roughness=0.3' --material 'opacity=0.5'
+for map in color normal height; do cmp -s one-$map.png m-$map.png || fail "one thread: $map"; done
+bakes sheet.obj --maps usual
+[ "$(kind usual-color.png)" = 00000800000008000802 ] || fail "usual-color.png"
+[ ! -e usual-normal.png ] || fail "a normal map without a height"
+
+# Tiles, and what lies across their border.
+{ sheet 0.05 0.9; sheet 1.05 0.9 | awk '/^v / { $2 += 2 } /^f/ { for (i = 2; i <= 5; ++i) { split($i, a, "/"); $i = a[1] + 169 "/" a[1] + 169 } } { print }'; } >tiles.obj
+bakes tiles.obj --bake 32 -o t.glb,t.obj --maps t
+for file in t-color.1001.png t-color.1002.png t-height.1002.exr; do [ -s $file ] || fail "tiles: no $file"; done
+grep -q '^usemtl coat.1002' t.obj && grep -q '^map_Kd t-color.1002.png' t.mtl || fail "t.obj and its tiles"
+sheet 0.55 0.9 >across.obj
+bakes across.obj --bake 32 -o c.glb
+grep -q 'triangles of the uv, the first one of face [0-9]*, lie across the border' err || fail "across: $(cat err)"
+sheet 0.95 -0.9 >mirrored.obj
+bakes mirrored.obj --bake 32 -o d.glb
+grep -q '288 triangles of the uv, the first one of face 0, are mirrored' err || fail "mirrored: $(cat err)"
+{ sheet 0.05 0.9; sheet 0.05 0.9 | awk '/^v / { $2 += 2 } /^f/ { for (i = 2; i <= 5; ++i) { split($i, a, "/"); $i = a[1] + 169 "/" a[1] + 169 } } { print }'; } >twice.obj
+bakes twice.obj --bake 64 -o e.glb
+grep -q '288 triangles of the uv, the first one of face 144, lie over others' err || fail "twice: $(cat err)"
+
+# Nothing is grown, and nothing is left, where it cannot be written.
+before=$(ls)
+grep -v '^vt' sheet.obj | sed 's/\/[0-9]*//g' >bare.obj
+refused 2 'the shape has no uv' bare.obj --bake 64 -o x.glb
+refused 2 'shows an image on a mesh' sheet.obj --bake 64 -o x.ply
+refused 2 'GB of memory; at most 16384' sheet.obj --bake 100000 -o x.glb
+refused 2 '16' sheet.obj --bake 0 -o x.glb
+refused 2 '16' sheet.obj --bake 3 -o x.glb
+refused 2 'leave --flat and --detail out' sheet.obj --bake 64 --flat -o x.glb
+refused 2 'how the names of the images begin' sheet.obj --maps ./
+refused 5 'missing' sheet.obj --maps missing/x
+refused 5 'missing' sheet.obj --bake 64 -o missing/x.glb
+refused 2 'for surfaces with uv' builtin:sphere?n=300 --solid --size 0.3 --bake 64 -o x.glb
+rm bare.obj
+[ "$(ls)" = "$before" ] || fail "files are left: $(ls)"
+
+[ $failures -eq 0 ] && echo "baking: as it should be"
+exit $((failures > 0))
