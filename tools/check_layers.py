@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-ORDER = "base < linalg shape react recipe < discretise io < time fair direction look gridgen solid < run < catalog < verify render < apps"
+ORDER = "base < linalg shape react recipe < discretise io < time fair direction look gridgen solid measure < run < catalog < verify render < apps"
 RANK = {layer: rank for rank, group in enumerate(ORDER.split("<")) for layer in group.split()}
 
 # The public headers belong to the layer that implements them.

@@ -29,6 +29,7 @@ Command add_field(CLI::App& parent);
 Command add_compare(CLI::App& parent);
 Command add_grid(CLI::App& parent);
 Command add_cells(CLI::App& parent);
+Command add_measure(CLI::App& parent);
 Command add_recipes(CLI::App& parent);
 Command add_verify(CLI::App& parent);
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/box.h"
+#include "base/unions.h"
 #include "pelage/error.h"
 #include "shape/grid.h"
 #include "shape/vectors.h"
@@ -39,24 +40,6 @@ struct Side {
 std::string name_of(const std::vector<Atlas::Patch>& patches, const Side& s) {
   return patches[s.patch].name + "." + side_names[s.side];
 }
-
-/// Numbers that stand for themselves or for the first one that they are united with.
-class Unions {
- public:
-  explicit Unions(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), Node{0}); }
-  Node root(Node a) {
-    while (parent_[static_cast<std::size_t>(a)] != a) a = parent_[static_cast<std::size_t>(a)];
-    return a;
-  }
-  void unite(Node a, Node b) {
-    a = root(a);
-    b = root(b);
-    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-  }
-
- private:
-  std::vector<Node> parent_;
-};
 
 /// A node of the border of a patch, by its number among all nodes of all patches.
 struct BorderNode {

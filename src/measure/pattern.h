@@ -1,0 +1,45 @@
+#pragma once
+// What a pattern on a surface is like, in numbers.
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "pelage/triangle_mesh.h"
+
+namespace pelage {
+
+/// Where a function is above a level, or below it.
+struct PatternPhase {
+  std::size_t parts = 0;  ///< that are connected
+  double share = 0;       ///< of the area
+  double width = 0;  ///< twice its area over the length of its border: of stripes their width, of discs half of their
+                     ///< diameter; 0 without a border [world units]
+};
+
+struct PatternMeasures {
+  double area = 0;                                           ///< of the surface [world units^2]
+  double minimum = 0, maximum = 0, mean = 0, deviation = 0;  ///< weighted with the area
+  double level = 0;
+  PatternPhase above, below;
+  double border = 0;  ///< length of the lines at the level [world units]
+  /// 2 pi over the root mean square wave number, (integral of |grad u|^2 / integral of (u - mean)^2)^(1/2): the
+  /// wavelength of a plane wave; less where edges are sharp. 0 for a constant [world units].
+  double wavelength = 0;
+  /// Of the phase with more parts: the distance of neighbours if they were laid in triangles, (2 area / (3^(1/2)
+  /// parts))^(1/2) [world units].
+  double spacing = 0;
+  /// (a - b) / (a + b) with the larger and the smaller mean square slope across and along, in the means over Gaussians
+  /// with half a wavelength for their sigma: 1 for straight stripes, 0 for spots.
+  double coherence = 0;
+  /// Mean squares of the coordinates of the unit vectors along the stripes, weighted with slopes and coherence; their
+  /// sum is 1 where there are any.
+  std::array<double, 3> along{};
+};
+
+/// Of a function that is linear on the triangles, with one value per vertex. Default level: halfway between the lowest
+/// and the highest half percent of the values. Error(Fault::input) for meshes without area, or that are no manifold.
+PatternMeasures measure_pattern(const TriangleMesh& mesh, const std::vector<double>& values,
+                                const std::optional<double>& level = {});
+
+}  // namespace pelage
