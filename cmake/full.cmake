@@ -45,7 +45,7 @@ pelage_library(pelage_look look)  # colours, plots, lettering
 target_include_directories(pelage_look SYSTEM PRIVATE ${STB_INCLUDE_DIR})
 target_link_libraries(pelage_look PUBLIC pelage_core)
 
-pelage_library(pelage gridgen solid measure catalog verify)  # grids for regions; volumes; patterns in numbers; from names to components; the interface of include/pelage
+pelage_library(pelage gridgen solid measure unwrap catalog verify)  # grids for regions; volumes; patterns in numbers; atlases; from names to components; the interface of include/pelage
 target_link_libraries(pelage PUBLIC pelage_look pelage_io)
 
 pelage_library(pelage_render render)  # pictures of surfaces

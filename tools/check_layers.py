@@ -8,14 +8,14 @@ import pathlib
 import re
 import sys
 
-ORDER = "base < linalg shape react recipe < discretise io < time fair direction look gridgen solid measure < run < catalog < verify render < apps"
+ORDER = "base < linalg shape react recipe < discretise io < time fair direction look gridgen solid measure unwrap < run < catalog < verify render < apps"
 RANK = {layer: rank for rank, group in enumerate(ORDER.split("<")) for layer in group.split()}
 
 # The public headers belong to the layer that implements them.
 PUBLIC = {"error": "base", "channel": "base", "point": "base", "progress": "base", "triangle_mesh": "shape", "polygon_mesh": "shape",
-          "up_axis": "shape", "image": "shape", "grid": "shape", "atlas": "shape", "cells": "shape",
+          "up_axis": "shape", "image": "shape", "texture_maps": "shape", "grid": "shape", "atlas": "shape", "cells": "shape",
           "tet_mesh": "shape", "node_shape": "shape",
-          "finding": "shape", "stability": "react", "recipe": "recipe", "io": "io", "fair": "fair", "field": "direction",
+          "unwrap": "unwrap", "finding": "shape", "stability": "react", "recipe": "recipe", "io": "io", "fair": "fair", "field": "direction",
           "run_summary": "run", "grow": "catalog", "analyse": "catalog", "render": "render", "pelage": "apps"}
 INCLUDE = re.compile(r'\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 

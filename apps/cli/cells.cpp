@@ -13,9 +13,11 @@
 #include "outputs.h"
 #include "pelage/render.h"
 #include "shape/cell_outlines.h"
+#include "shape/soup_orient.h"
 #include "soup_input.h"
 #include "text.h"
 #include "usage.h"
+#include "view_options.h"
 
 namespace pelage {
 
@@ -26,6 +28,7 @@ struct CellsCommand {
   std::vector<std::string> outputs;
   std::size_t count = 4000;
   int size = 1200;  ///< of the picture
+  ViewOptions view;
   int threads = 0;
   bool json = false, quiet = false;
 };
@@ -70,14 +73,13 @@ void run_cells(const CellsCommand& command) {
   if (file.nodes)
     throw Error(Fault::usage, command.shape + " has nodes of its own; cells are for polygons and clouds of points");
   if (!command.json && !command.quiet) print_findings(file.findings);
+  orient_soup(file.mesh);
   const CellMaker maker(std::make_shared<const TriangleMesh>(std::move(file.mesh)));
   const Cells cells = maker.make(command.count);
   const PolygonMesh outlines = outlines_of(cells);
   save_all(outlines, command.outputs, {});
   if (!command.picture.empty()) {
-    PictureOptions options;
-    options.width = options.height = command.size;
-    options.up = file.up;
+    const PictureOptions options = picture_options(command.view, command.size, file.up);
     write_png(render(cells_to_see(cells), options), command.picture);
   }
   report(command, cells, outlines, maker.outliers());
@@ -105,6 +107,7 @@ Command add_cells(CLI::App& parent) {
   app->add_option("--picture-size", o->size, "Width and height of the picture in pixels (default: 1200)")
       ->type_name("N")
       ->check(whole_number(64, 16384));
+  add_view_options(*app, o->view);
   app->add_option("--threads", o->threads, "Threads to use (default: all cores); the result does not depend on it")
       ->type_name("N")
       ->check(whole_number(1, most_threads));

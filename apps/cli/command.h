@@ -31,6 +31,7 @@ Command add_grid(CLI::App& parent);
 Command add_cells(CLI::App& parent);
 Command add_measure(CLI::App& parent);
 Command add_recipes(CLI::App& parent);
+Command add_unwrap(CLI::App& parent);
 Command add_verify(CLI::App& parent);
 
 /// Prints to stdout, indented; text that is not UTF-8 gets replacement characters.

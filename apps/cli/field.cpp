@@ -25,6 +25,7 @@
 #include "run/program.h"
 #include "text.h"
 #include "usage.h"
+#include "view_options.h"
 
 namespace pelage {
 
@@ -37,8 +38,9 @@ struct FieldCommand {
   int n = 2;
   std::optional<double> smooth;
   std::optional<double> input_unit;  ///< metres
-  bool curvature = false, across = false, up_z = false, json = false, quiet = false;
-  double azimuth = 35, elevation = 14, spacing = 0;
+  bool curvature = false, across = false, json = false, quiet = false;
+  double spacing = 0;
+  ViewOptions view;
   int size = 1024;
 };
 
@@ -109,11 +111,7 @@ TriangleMesh with_field(TriangleMesh mesh, const Connection& c, const DirectionF
 
 void draw(const FieldCommand& o, const TriangleMesh& mesh, UpAxis up, const Connection& c, const DirectionField& field,
           const Progress& progress) {
-  PictureOptions options;
-  options.width = options.height = o.size;
-  options.azimuth = o.azimuth;
-  options.elevation = o.elevation;
-  options.up = up;
+  const PictureOptions options = picture_options(o.view, o.size, up);
   write_png(render(hatched(mesh, c, field, {o.spacing * box_of(mesh.points).diagonal()}), options, progress),
             o.picture);
 }
@@ -156,7 +154,7 @@ void run_field(const FieldCommand& o) {
   ProgressBar bar(o.quiet || o.json ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
   const ShapeFile file = read_surface(o.shape, o.input_unit);
   const TriangleMesh& mesh = file.mesh;
-  const UpAxis up = o.up_z ? UpAxis::z : file.up;
+  const UpAxis up = o.view.up.value_or(file.up);
   const Connection c = make_connection(make_topology(mesh.points.size(), mesh.triangles), mesh.points);
   const double diagonal = box_of(mesh.points).diagonal();
   const DirectionField field = direction_field(c, o.n, find_guides(wish_of(o, diagonal), c, mesh.points, diagonal));
@@ -196,9 +194,7 @@ void add_picture_options(CLI::App* app, FieldCommand& o) {
   app->add_option("--spacing", o.spacing, "Distance of the drawn strokes, diagonals (0.02)")
       ->check(positive_number())
       ->type_name("X");
-  app->add_option("--azimuth", o.azimuth, "Camera's degrees around the up axis (35)")->type_name("DEG");
-  app->add_option("--elevation", o.elevation, "Camera's degrees above the horizon (14)")->type_name("DEG");
-  app->add_flag("--up-z", o.up_z, "z points up (default: what the file says, otherwise y)");
+  add_view_options(*app, o.view);
 }
 
 }  // namespace

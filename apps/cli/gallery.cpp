@@ -26,6 +26,7 @@
 #include "run/run.h"
 #include "text.h"
 #include "usage.h"
+#include "view_options.h"
 
 namespace pelage {
 
@@ -43,6 +44,7 @@ struct GalleryOptions {
   std::vector<std::string> names, shapes;
   bool recipes = false;
   int picture_size = 512, threads = 0;
+  ViewOptions view;
   bool json = false, quiet = false;
 };
 
@@ -74,7 +76,7 @@ Program program_of(const Recipe& recipe, const GalleryShape& shape) {
 }
 
 /// One recipe on one shape; an empty image when `report` asks to stop.
-Image make_picture(const Job& job, int size, const std::function<bool(double)>& report) {
+Image make_picture(const Job& job, const GalleryOptions& options, const std::function<bool(double)>& report) {
   const Progress progress = [&](std::string_view, double) { return report(0); };
   const Recipe& recipe = job.subject->recipe;
   Run run(program_of(recipe, *job.shape), progress);
@@ -86,15 +88,13 @@ Image make_picture(const Job& job, int size, const std::function<bool(double)>& 
   if (run.uniform()) job.picture->uniform = run.why_uniform();
   const TriangleMesh coat = dress(run.fields(), recipe.look);
   if (const Grid* grid = as<Grid>(job.shape->file.nodes); grid && is_flat(*grid))
-    return picture_of_nodes(*grid, coat, {1, 1}, size);
-  PictureOptions options;
-  options.width = options.height = size;
-  return render(coat, options);
+    return picture_of_nodes(*grid, coat, {1, 1}, options.picture_size);
+  return render(coat, picture_options(options.view, options.picture_size, job.shape->file.up));
 }
 
 void do_job(const Job& job, const GalleryOptions& options, const std::function<bool(double)>& report) {
   try {
-    const Image image = make_picture(job, options.picture_size, report);
+    const Image image = make_picture(job, options, report);
     if (image.rgb.empty()) return;
     write_png(with_caption(image, short_name(*job.subject) + ", " + job.shape->name, job.subject->title),
               (std::filesystem::path(options.folder) / job.picture->file).string());
@@ -265,6 +265,7 @@ void add_options(CLI::App& app, GalleryOptions& o) {
   app.add_option("--picture-size", o.picture_size, "Width of the pictures, pixels (default: 512)")
       ->type_name("N")
       ->check(whole_number(smallest_picture, largest_picture));
+  add_view_options(app, o.view);
   app.add_option("--threads", o.threads, "Threads to use (default: all cores); the result does not depend on it")
       ->type_name("N")
       ->check(whole_number(1, most_threads));

@@ -15,10 +15,12 @@
 #include "interrupt.h"
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
+#include "io/gltf_coat.h"
 #include "io/write_mesh.h"
 #include "look/carving.h"
 #include "look/grid_picture.h"
 #include "look/sheet_image.h"
+#include "look/solid_tessellation.h"
 #include "node_outputs.h"
 #include "panels.h"
 #include "pelage/io.h"
@@ -174,12 +176,17 @@ Saving save_mesh(const Mesh& coat, const std::string& path, const SaveOptions& f
   return {{path}, "", losses(coat, extension_of(path))};
 }
 
+bool has_corner_normals(const TriangleMesh& coat) {
+  const Attribute* normal = coat.find("normal");
+  return normal && normal->domain == Domain::corner;
+}
+
 /// Where normals belong to corners of their own, the surface stays closed; elsewhere it does so without them.
-Saving save_body(TriangleMesh body, const std::string& path, const SaveOptions& form) {
+Saving save_surface(TriangleMesh coat, const std::string& path, const SaveOptions& form) {
   const std::string extension = lower_extension(path);
-  if (extension != ".glb" && extension != ".obj")
-    std::erase_if(body.attributes, [](const Attribute& a) { return a.name == "normal"; });
-  return save_mesh(body, path, form);
+  if (has_corner_normals(coat) && extension != ".glb" && extension != ".obj")
+    std::erase_if(coat.attributes, [](const Attribute& a) { return a.name == "normal"; });
+  return save_mesh(coat, path, form);
 }
 
 /// Built-in shapes are of no other form.
@@ -209,11 +216,9 @@ void write_picture(const std::string& path, const Progress& progress, GrowReport
   report.file(path);
 }
 
-PictureOptions picture_options(const GrowOptions& options, const Quality& quality, UpAxis up) {
-  PictureOptions picture;
+PictureOptions picture_of(const GrowOptions& options, const Quality& quality, UpAxis up) {
+  PictureOptions picture = picture_options(options.view, options.picture_size, up);
   picture.samples = quality.picture_samples;
-  picture.width = picture.height = options.picture_size;
-  picture.up = up;
   return picture;
 }
 
@@ -225,9 +230,9 @@ GrowReport::Form form_of(const GrowOptions& options) {
 /// The coat when it has grown, and the shape as it was given. The run and its matrices are gone when pictures are
 /// drawn.
 struct Grown {
-  TriangleMesh coat;
-  std::optional<Image> image;        ///< instead of the coat, where nothing else is asked for
-  std::optional<TriangleMesh> body;  ///< of a volume what is shown of it
+  TriangleMesh coat;                     ///< as it is shown
+  std::optional<Image> image;            ///< instead of the coat, where nothing else is asked for
+  std::optional<TriangleMesh> at_nodes;  ///< of a volume, what files of these have
   std::shared_ptr<const TriangleMesh> shape;
   Paint paint;
   std::shared_ptr<const NodeShape> nodes;  ///< of the run, which may be made of the file's surface
@@ -259,8 +264,10 @@ std::optional<UvLayout> layout_of(const GrowOptions& options, const ShapeFile& f
 }
 
 Saving save_with_textures(const Grown& grown, const std::string& path, const SaveOptions& form) {
-  const PolygonMesh mesh = grown.textured ? *grown.textured : polygons_of(grown.coat);
-  return {save_textured(mesh, path, form, *grown.textures), "", losses(mesh, extension_of(path))};
+  PolygonMesh mesh = grown.textured ? *grown.textured : polygons_of(grown.coat);
+  std::vector<std::string> files = save_textured(mesh, path, form, *grown.textures);
+  erase_imaged(mesh.attributes);
+  return {std::move(files), "", losses(mesh, extension_of(path))};
 }
 
 /// The file's own mesh as it is cut into triangles; where repairs have changed those, the one of the run.
@@ -370,6 +377,15 @@ Grown grown_coat(const GrowOptions& options, const Plan& planned, const Look& lo
     grown.image = sheet_image(fields, look);
     return grown;
   }
+  if (is_volume(fields.nodes.get())) {
+    if (const std::string other = fit_level(carving, fields); !other.empty()) report.warning(other);
+    for (const std::string& line :
+         clamped_channels(samples_at_nodes(fields, tessellation_request(look, grown.paint)), grown.paint))
+      report.warning(line);
+    grown.coat = dress_body(fields, look, carving);
+    if (std::ranges::any_of(options.outputs, is_node_output)) grown.at_nodes = dress_nodes(fields, look);
+    return grown;
+  }
   grown.coat = dressed(fields, look, grown.paint, report);
   if (patches) grown.patches = patch_texture(fields, look, texture_size(options));
   if (patches && wants_images(options)) {
@@ -380,9 +396,6 @@ Grown grown_coat(const GrowOptions& options, const Plan& planned, const Look& lo
     progress("baking", 0);
     bake_surface(fields, look, *layout, file, grown, report);
   }
-  if (!is_volume(fields.nodes.get())) return grown;
-  if (const std::string other = fit_level(carving, fields); !other.empty()) report.warning(other);
-  grown.body = dress_body(fields, look, carving);
   return grown;
 }
 
@@ -410,11 +423,20 @@ Carving carving_of(const GrowOptions& options, const Plan& planned, UpAxis up) {
 
 /// What a shape of that kind has not: before any work.
 void check_kind(const GrowOptions& options, const Look& look, const ShapeFile& file, const Carving& carving) {
-  if (file.nodes && (look.flat || look.keep_shape || look.detail.value_or(0) > 0))
-    throw Error(Fault::usage, "the shape is coloured at its own nodes: leave --flat, --keep-shape and --detail out");
+  const bool cut = !options.cuts.empty() || options.isosurface;
+  if (file.nodes && (look.flat || look.keep_shape || look.detail.value_or(0) > 0)) {
+    if (!shows_surface(file.nodes))
+      throw Error(Fault::usage, "the shape is coloured at its own nodes: leave --flat, --keep-shape and --detail out");
+    if (cut)
+      throw Error(Fault::usage,
+                  "--cut and --isosurface show other surfaces than that of the shape: leave --flat, --keep-shape and "
+                  "--detail out");
+  }
+  if (file.nodes && look.displace)
+    throw Error(Fault::usage, "--displace moves the vertices of surfaces; the nodes of this shape stay where they are");
   for (const std::string& path : options.outputs)
     if (is_node_output(path)) check_node_output(path, file.nodes.get());
-  if (!is_volume(file.nodes.get()) && (!options.cuts.empty() || options.isosurface))
+  if (cut && !is_volume(file.nodes.get()))
     throw Error(Fault::usage,
                 "--cut and --isosurface show the inside of volumes, and the shape is none; take for example "
                 "builtin:box?n=64x64x64 or a .vtu or .msh file");
@@ -449,16 +471,17 @@ void write_files(const GrowOptions& options, const Grown& grown, const ShapeFile
       return {{path}, "", {}};
     }
     if (grown.textures && options.bake) return save_with_textures(grown, path, form);
-    if (is_node_output(path)) return {{path}, save_nodes(*grown.nodes, grown.coat, path), {}};
-    if (grown.body) return save_body(*grown.body, path, form);
-    if (!keep_shape || grown.shape->triangles.empty()) return save_mesh(grown.coat, path, form);
+    if (is_node_output(path))
+      return {{path}, save_nodes(*grown.nodes, grown.at_nodes ? *grown.at_nodes : grown.coat, path), {}};
+    if (!keep_shape || grown.shape->triangles.empty()) return save_surface(grown.coat, path, form);
     return save_mesh(kept_shape(form_of_shape(file, *grown.shape), grown.coat, grown.paint), path, form);
   };
   write_outputs(options.outputs, save_as, progress, report);
   if (!options.patch_images.empty())
     for (const std::string& path : save_patches(*grown.patches, options.patch_images)) report.file(path);
-  if (!options.baked_maps.empty())
-    for (const MapFile& map : save_maps(*grown.textures, options.baked_maps)) report.file(map.path, map.about);
+  if (options.baked_maps.empty()) return;
+  progress("writing " + options.baked_maps + "-color.png and the others", 0);
+  for (const MapFile& map : save_maps(*grown.textures, options.baked_maps)) report.file(map.path, map.about);
 }
 
 void write_pictures(const GrowOptions& options, const Recipe& recipe, const Grown& grown, const ShapeFile& file,
@@ -468,7 +491,7 @@ void write_pictures(const GrowOptions& options, const Recipe& recipe, const Grow
     if (grown.image) return picture_of_nodes(*grid, *grown.image, options.preview, options.picture_size);
     if (grid && grid->dimension() < 3 && is_flat(*grid))
       return picture_of_nodes(*grid, grown.coat, options.preview, options.picture_size);
-    return render(grown.body ? split_corners(*grown.body) : grown.coat, picture, p);
+    return render(has_corner_normals(grown.coat) ? split_corners(grown.coat) : grown.coat, picture, p);
   });
   write_picture(options.panels, progress, report,
                 [&](const Progress& p) { return four_panels(recipe, *grown.shape, grown.coat, picture, p); });
@@ -494,7 +517,7 @@ void grow(const GrowOptions& options) {
   std::vector<Texture> images = read_images(recipe.textures);
   ShapeFile file = read_input(options, recipe.shape, planned, images, progress);
   report.shape(recipe.shape, file);
-  const UpAxis up = options.up.value_or(file.up);
+  const UpAxis up = options.view.up.value_or(file.up);
   Carving carving = carving_of(options, planned, up);
   check_kind(options, recipe.look, file, carving);
   const std::optional<UvLayout> layout = layout_of(options, file, report);
@@ -503,7 +526,7 @@ void grow(const GrowOptions& options) {
   const Grown grown =
       grown_coat(options, planned, recipe.look, file, std::move(images), std::move(carving), layout, progress, report);
   write_files(options, grown, file, recipe.look.keep_shape, {object_name(file, recipe.shape), up}, progress, report);
-  write_pictures(options, recipe, grown, file, picture_options(options, *planned.quality, up), progress, report);
+  write_pictures(options, recipe, grown, file, picture_of(options, *planned.quality, up), progress, report);
   if (options.profile) report.profile(profile);
   report.end(total.seconds());
 }

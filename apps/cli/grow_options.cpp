@@ -1,7 +1,6 @@
 #include "grow_options.h"
 
 #include <filesystem>
-#include <map>
 #include <utility>
 
 #include "base/suggest.h"
@@ -215,6 +214,10 @@ void add_look_options(CLI::App& app, GrowOptions& o) {
       ->type_name("CHANNEL=FORMULA")
       ->allow_extra_args(false)
       ->group(group);
+  app.add_flag("--displace", o.displace,
+               "Move the vertices by the height that --material or the recipe gives, instead of "
+               "noting it beside them")
+      ->group(group);
   app.add_flag("--keep-shape", o.keep_shape,
                "Give back the shape as it is, its own vertices and faces in their order with all that the file says of "
                "them, coloured at the vertices, instead of the smooth surface")
@@ -311,18 +314,7 @@ void add_picture_options(CLI::App& app, GrowOptions& o, const std::string& group
       ->type_name("N")
       ->check(whole_number(1, largest_picture))
       ->group(group);
-  const std::map<std::string, UpAxis> axes = {{"y", UpAxis::y}, {"z", UpAxis::z}};
-  app.add_option_function<std::string>(
-         "--up",
-         [&o, axes](const std::string& name) {
-           const auto axis = axes.find(name);
-           if (axis == axes.end()) throw CLI::ValidationError("--up", unknown_name("axis", name, {"y", "z"}));
-           o.up = axis->second;
-         },
-         "Which axis of the shape points up, y or z, in pictures and in GLB, which is turned for it (default: what the "
-         "file says, otherwise y)")
-      ->type_name("AXIS")
-      ->group(group);
+  add_view_options(app, o.view, group);
 }
 
 void add_output_options(CLI::App& app, GrowOptions& o) {
@@ -477,10 +469,15 @@ void apply(const GrowOptions& o, Look& look) {
   look.invert |= o.invert;
   look.keep_shape |= o.keep_shape;
   look.flat |= o.flat;
+  look.displace |= o.displace;
   look.fields &= !o.no_fields;
   override(o.detail, look.detail);
   if (look.keep_shape && look.detail.value_or(0) > 0)
     throw Error(Fault::usage, "--keep-shape splits nothing: leave --detail out, or take --flat instead");
+  if (look.displace && look.keep_shape)
+    throw Error(Fault::usage, "--keep-shape moves nothing: leave --displace out, or take --flat instead");
+  if (look.displace && !look.channels.contains(Channel::height))
+    throw Error(Fault::usage, "--displace needs a height, for example --material height=0.1*b");
 }
 
 bool is_known(const std::string& name, const std::vector<std::string>& names) {

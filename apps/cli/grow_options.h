@@ -8,7 +8,7 @@
 
 #include "command.h"
 #include "pelage/recipe.h"
-#include "pelage/render.h"
+#include "view_options.h"
 
 namespace pelage {
 
@@ -29,7 +29,7 @@ struct GrowOptions {
   std::string fair;  ///< method of fairing, or empty
   std::optional<std::string> motion;
   bool profile = false, solid = false, nested = false;
-  bool interpolate = false, invert = false, keep_shape = false, flat = false, no_fields = false;
+  bool interpolate = false, invert = false, keep_shape = false, flat = false, displace = false, no_fields = false;
 
   std::vector<std::string> outputs;
   std::string picture, panels, plot, height_map, patch_images, checkpoint, resume;
@@ -39,7 +39,7 @@ struct GrowOptions {
   std::optional<std::string> isosurface;
   std::array<int, 2> preview{1, 1};  ///< tiles across and down
   int picture_size = 1024;
-  std::optional<UpAxis> up;  ///< given, or else what the file says
+  ViewOptions view;
   bool json = false, quiet = false;
 };
 

@@ -101,8 +101,9 @@ std::string size_in_words(const StageProgram& p, const TriangleMesh& shape) {
 }  // namespace
 
 std::shared_ptr<const TriangleMesh> shape_of(const Program& program) {
-  const Cells* cells = as<Cells>(program.nodes);
-  return cells ? cells->on : program.shape;
+  if (const Cells* cells = as<Cells>(program.nodes)) return cells->on;
+  const TetMesh* volume = as<TetMesh>(program.nodes);
+  return volume && volume->surface ? volume->surface : program.shape;
 }
 
 void GrowReport::line(const std::string& label, const std::string& text) {

@@ -89,8 +89,7 @@ UvLayout uv_layout(const TriangleMesh& shape, int size) {
   const Attribute* uv = shape.find("uv");
   if (!uv || uv->components != 2 || uv->domain == Domain::face)
     throw Error(Fault::usage,
-                "the shape has no uv, which says where an image lies on it; unwrap it, in Blender by UV > Smart UV "
-                "Project, and export it with its UVs");
+                "the shape has no uv, which says where an image lies on it; pelage unwrap SHAPE -o FILE.obj makes one");
   return UvLayout(shape.triangles, *uv, size);
 }
 
@@ -124,7 +123,7 @@ std::string line_of(const UvNote& note, std::size_t face) {
     case UvNote::Kind::outside:
       return faces + (one ? "lies" : "lie") + " across the border of the image, which therefore repeats";
     case UvNote::Kind::overlapping:
-      return faces + (one ? "lies" : "lie") + " over others, which the image shows";
+      return faces + (one ? "lies" : "lie") + " over others, which alone the image shows";
   }
   return "";
 }

@@ -12,3 +12,4 @@
 #include "pelage/progress.h"
 #include "pelage/recipe.h"
 #include "pelage/render.h"
+#include "pelage/unwrap.h"

@@ -137,6 +137,7 @@ struct Look {
                                                    ///< of the finest pattern
   bool keep_shape = false;    ///< the input as it is: its own vertices and flat triangles, never split
   bool flat = false;          ///< the input's flat triangles instead of the limit surface, split as the detail says
+  bool displace = false;      ///< heights move the vertices, instead of being noted beside them
   bool fields = true;         ///< the coat carries the species as attributes, beside its colours
   std::optional<int> detail;  ///< extra splits of every triangle into four, 0 to most_detail; default: as needed
 };

@@ -24,12 +24,13 @@ struct PictureOptions {
   double azimuth = 35;    ///< degrees around the up axis; 0 looks from +z (up y) or -y (up z), 90 from +x
   double elevation = 14;  ///< degrees above the horizon, -89 to 89
   std::array<double, 3> background = {0.80, 0.80, 0.79};  ///< colour of the backdrop, linear light
+  double exposure = 0;                                    ///< stops: brighter by so many factors of two, -20 to 20
 };
 
-/// The mesh on the ground before a seamless backdrop, framed so that it fills the picture. "color" (linear) and
-/// "normal" at the vertices are interpolated; without normals the faces are flat, without colours they are grey.
-/// The same bits for any number of threads. Errors: Fault::usage for options outside their ranges, Fault::input for
-/// a mesh without extent, Fault::cancelled when `progress` asks to stop.
+/// The mesh on the ground before a seamless backdrop, framed so that it fills the picture. "color" (linear), "normal"
+/// and the attributes of channel.h at the vertices are interpolated; without normals the faces are flat, without
+/// colours they are grey. The same bits for any number of threads. Errors: Fault::usage for options outside their
+/// ranges, Fault::input for a mesh without extent, Fault::cancelled when `progress` asks to stop.
 Image render(const TriangleMesh& mesh, const PictureOptions& options = {}, const Progress& progress = {});
 
 /// Several pictures of one mesh, which is prepared for rays once for each axis that points up. Not copyable; use it

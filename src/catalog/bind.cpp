@@ -18,8 +18,10 @@
 #include "run/material.h"
 #include "run/random_points.h"
 #include "shape/cells.h"
+#include "shape/finding.h"
 #include "shape/grid.h"
 #include "shape/refine.h"
+#include "shape/soup_orient.h"
 #include "shape/tet_mesh.h"
 #include "solid/fill.h"
 
@@ -370,6 +372,7 @@ std::size_t number_of_cells(const Plan& plan, const CellMaker& maker, std::share
 
 Program bind_cells(const Plan& plan, TriangleMesh mesh, std::vector<Texture> images) {
   require_at_rest(plan);
+  const std::size_t reversed = orient_soup(mesh);
   const auto shape = std::make_shared<const TriangleMesh>(std::move(mesh));
   const CellMaker maker(shape);
   Cells cells = maker.make(number_of_cells(plan, maker, shape, images));
@@ -379,6 +382,8 @@ Program bind_cells(const Plan& plan, TriangleMesh mesh, std::vector<Texture> ima
   TriangleMesh points = mesh_of(cells);
   Program p =
       bind_plan(plan, std::make_shared<const NodeShape>(std::move(cells)), std::move(points), std::move(images));
+  if (reversed > 0)
+    p.warnings.push_back(counted(reversed, "triangle") + " turned over, so that all that meet have one side up");
   if (maker.outliers() > 0)
     p.warnings.push_back(std::to_string(maker.outliers()) + " of the " + std::to_string(shape->points.size()) +
                          " points are far from all others: nothing grows on them");
@@ -390,12 +395,11 @@ Program bind_cells(const Plan& plan, TriangleMesh mesh, std::vector<Texture> ima
 void fill_solid(const Plan& plan, ShapeFile& shape, const std::vector<Texture>& images) {
   if (shape.nodes || !fills(*plan.method)) return;
   const double edge = edge_inside(plan, shape.mesh, images);
-  Filling filling = fill(shape.mesh, edge, max_tets);
-  constexpr double noticeable = 0.03;
-  if (filling.lost > noticeable) shape.findings.push_back(lost_volume(filling.lost, edge));
+  constexpr double noticeable = 0.01;
+  Filling filling = fill_within(shape.mesh, edge, noticeable, max_tets);
+  if (filling.lost > noticeable) shape.findings.push_back(lost_volume(filling.lost, filling.edge));
   filling.volume.surface = std::make_shared<const TriangleMesh>(std::move(shape.mesh));
   shape.mesh = mesh_of(filling.volume);
-  shape.source.reset();
   shape.nodes = std::make_shared<const NodeShape>(std::move(filling.volume));
 }
 

@@ -93,16 +93,6 @@ void build_tangents(Connection& c, const std::vector<Point>& points) {
 
 }  // namespace
 
-Point Connection::tangent(Index v, double a) const {
-  const Point &e = east[at(v)], &n = north[at(v)];
-  const double x = std::cos(a), y = std::sin(a);
-  return {x * e[0] + y * n[0], x * e[1] + y * n[1], x * e[2] + y * n[2]};
-}
-
-double Connection::angle(Index v, const Point& vector) const {
-  return std::atan2(dot(vector, north[at(v)]), dot(vector, east[at(v)]));
-}
-
 double Connection::curvature(Index f) const {
   return corner[at(3 * f)] + corner[at(3 * f + 1)] + corner[at(3 * f + 2)] - pi;
 }

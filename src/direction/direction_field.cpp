@@ -18,32 +18,26 @@ using std::numbers::pi;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// An edge and what carries its start's value to its end.
-struct Link {
-  Index from, to;
-  double weight, angle;
-};
-
 /// Obtuse triangles give edges of negative cotangent weight, with which A would have directions of negative energy.
 /// They keep this share of an equilateral edge instead: singularities move by less than an edge.
 constexpr double smallest_weight = 0.05;
 
-std::vector<Link> links(const Connection& c, int n) {
-  std::vector<Link> list;
+std::vector<PlaneLink> links(const Connection& c) {
+  std::vector<PlaneLink> list;
   for (Index h = 0; at(h) < c.transport.size(); ++h) {
     const Index twin = c.topology.twin[at(h)];
     if (twin >= 0 && twin < h) continue;
     const double w = c.cotangent[at(h)] + (twin >= 0 ? c.cotangent[at(twin)] : 0);
-    list.push_back({c.topology.origin(h), c.topology.target(h), std::max(w, smallest_weight), n * c.transport[at(h)]});
+    list.push_back({c.topology.origin(h), c.topology.target(h), std::max(w, smallest_weight), c.transport[at(h)]});
   }
   return list;
 }
 
 /// Places of the 2 x 2 blocks: unknowns 2 v and 2 v + 1 are the real and the imaginary part at vertex v.
-std::shared_ptr<const SparsePattern> block_pattern(Index vertices, const std::vector<Link>& list) {
+std::shared_ptr<const SparsePattern> block_pattern(Index vertices, const std::vector<PlaneLink>& list) {
   std::vector<std::vector<Index>> near(at(vertices));
   for (Index v = 0; v < vertices; ++v) near[at(v)].push_back(v);
-  for (const Link& l : list) {
+  for (const PlaneLink& l : list) {
     near[at(l.from)].push_back(l.to);
     near[at(l.to)].push_back(l.from);
   }
@@ -70,27 +64,27 @@ void add(SparseMatrix& a, Index i, Index j, std::complex<double> value) {
   entry(2 * i + 1, 2 * j) += value.imag();
 }
 
-/// A of z'Az = sum w |z_to - exp(i angle) z_from|^2.
-SparseMatrix connection_laplacian(Index vertices, const std::vector<Link>& list) {
+/// A of z'Az = sum w |z_to - exp(i n transport) z_from|^2.
+SparseMatrix connection_laplacian(Index vertices, const std::vector<PlaneLink>& list, int n) {
   SparseMatrix a = zeros(block_pattern(vertices, list));
-  for (const Link& l : list) {
+  for (const PlaneLink& l : list) {
     add(a, l.from, l.from, l.weight);
     add(a, l.to, l.to, l.weight);
-    add(a, l.to, l.from, -std::polar(l.weight, l.angle));
-    add(a, l.from, l.to, -std::polar(l.weight, -l.angle));
+    add(a, l.to, l.from, -std::polar(l.weight, n * l.transport));
+    add(a, l.from, l.to, -std::polar(l.weight, -n * l.transport));
   }
   return a;
 }
 
 /// The piece of the mesh that each vertex belongs to: the smallest vertex number in it.
-std::vector<Index> pieces(Index vertices, const std::vector<Link>& list) {
+std::vector<Index> pieces(Index vertices, const std::vector<PlaneLink>& list) {
   std::vector<Index> parent(at(vertices));
   for (Index v = 0; v < vertices; ++v) parent[at(v)] = v;
   const auto root = [&](Index v) {
     while (parent[at(v)] != v) v = parent[at(v)] = parent[at(parent[at(v)])];
     return v;
   };
-  for (const Link& l : list) {
+  for (const PlaneLink& l : list) {
     const Index a = root(l.from), b = root(l.to);
     parent[at(std::max(a, b))] = std::min(a, b);
   }
@@ -111,15 +105,12 @@ Vector twice(const std::vector<double>& values) {
 
 class Solver {
  public:
-  Solver(const Connection& connection, int n)
-      : c_(connection),
-        n_(n),
-        links_(links(c_, n)),
-        laplacian_(connection_laplacian(c_.topology.vertex_count, links_)) {
+  Solver(const TangentPlanes& planes, const std::vector<PlaneLink>& links, int n)
+      : c_(planes), n_(n), laplacian_(connection_laplacian(planes.places(), links, n)) {
     mass_ = twice(c_.area);
     const double floor = 1e-12 * mass_.sum() / static_cast<double>(mass_.size());
     mass_ = mass_.cwiseMax(floor);
-    piece_ = pieces(c_.topology.vertex_count, links_);
+    piece_ = pieces(planes.places(), links);
   }
 
   Vector solve(const std::vector<Guide>& guides) {
@@ -229,22 +220,21 @@ class Solver {
     return z;
   }
 
-  const Connection& c_;
+  const TangentPlanes& c_;
   int n_;
-  std::vector<Link> links_;
   SparseMatrix laplacian_;
   Vector mass_;
   std::vector<Index> piece_;
   int iterations_ = 0;
 };
 
-void check(const Connection& c, int n, const std::vector<Guide>& guides) {
+void check(Index places, int n, const std::vector<Guide>& guides) {
   if (n != 1 && n != 2 && n != 4)
     throw Error(Fault::usage, "a direction field has 1, 2 or 4 directions per vertex, not " + std::to_string(n));
   for (const Guide& g : guides)
-    if (g.vertex < 0 || g.vertex >= c.topology.vertex_count)
+    if (g.vertex < 0 || g.vertex >= places)
       throw Error(Fault::usage, "a direction is wished at vertex " + std::to_string(g.vertex) + "; the mesh has " +
-                                    std::to_string(c.topology.vertex_count) + ", counted from 0");
+                                    std::to_string(places) + ", counted from 0");
 }
 
 }  // namespace
@@ -267,20 +257,26 @@ std::vector<int> singularity_indices(const Connection& c, int n, const std::vect
   return index;
 }
 
-DirectionField direction_field(const Connection& c, int n, const std::vector<Guide>& guides) {
-  check(c, n, guides);
+DirectionField direction_field(const TangentPlanes& planes, const std::vector<PlaneLink>& links, int n,
+                               const std::vector<Guide>& guides) {
+  check(planes.places(), n, guides);
   DirectionField field;
   field.n = n;
-  if (c.topology.vertex_count == 0) return field;
-  Solver solver(c, n);
+  if (planes.places() == 0) return field;
+  Solver solver(planes, links, n);
   const Vector z = solver.solve(guides);
-  for (Index v = 0; v < c.topology.vertex_count; ++v) {
+  for (Index v = 0; v < planes.places(); ++v) {
     field.angle.push_back(std::atan2(z[2 * v + 1], z[2 * v]) / n);
-    field.direction.push_back(c.tangent(v, field.angle.back()));
+    field.direction.push_back(planes.tangent(v, field.angle.back()));
   }
-  field.index = singularity_indices(c, n, field.angle);
   field.roughness = solver.roughness(z);
   field.iterations = solver.iterations();
+  return field;
+}
+
+DirectionField direction_field(const Connection& c, int n, const std::vector<Guide>& guides) {
+  DirectionField field = direction_field(c, links(c), n, guides);
+  field.index = singularity_indices(c, n, field.angle);
   return field;
 }
 

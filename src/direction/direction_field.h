@@ -15,7 +15,7 @@ namespace pelage {
 /// The attribute of a mesh that holds its directions: 3 components per vertex.
 inline constexpr const char* direction_attribute = "direction";
 
-/// What is wished at a vertex.
+/// What is wished at a vertex, or at another place that has a tangent plane.
 struct Guide {
   Index vertex = 0;
   Point direction{};  ///< its tangential part counts
@@ -27,7 +27,7 @@ struct DirectionField {
   int n = 2;                     ///< directions per vertex
   std::vector<double> angle;     ///< per vertex, in the polar coordinates of the connection [rad]
   std::vector<Point> direction;  ///< per vertex: one of the n as a unit tangent
-  std::vector<int> index;        ///< per face: turns / (2 pi / n) around it; 0 where the field is regular
+  std::vector<int> index;        ///< per face, of meshes: turns / (2 pi / n) around it; 0 where the field is regular
   double roughness = 0;          ///< smallest eigenvalue; of a guided field its Rayleigh quotient [1 / world^2]
   int iterations = 0;            ///< of the linear solver
 };
@@ -36,6 +36,9 @@ struct DirectionField {
 /// without guides get their smoothest field. Boundaries do not ask for anything. Error(Fault::usage) unless n is 1, 2
 /// or 4, or when a guide's vertex is not one of the mesh; Error(Fault::numerics) when the solver does not converge.
 DirectionField direction_field(const Connection& connection, int n, const std::vector<Guide>& guides = {});
+/// The same of any places that are linked.
+DirectionField direction_field(const TangentPlanes& planes, const std::vector<PlaneLink>& links, int n,
+                               const std::vector<Guide>& guides = {});
 
 /// The index of every face (Knoeppel et al. 2013, section 6.2): over a closed mesh they add up to n times its Euler
 /// characteristic.

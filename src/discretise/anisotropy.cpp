@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/parallel.h"
 #include "pelage/error.h"
@@ -48,6 +49,11 @@ Tensor line_tensor(const Point& d) {
   return {d[0] * d[0], d[0] * d[1], d[0] * d[2], d[1] * d[1], d[1] * d[2], d[2] * d[2]};
 }
 
+Tensor plane_tensor(const Point& d) {
+  const Tensor line = line_tensor(d);
+  return {1 - line[0], -line[1], -line[2], 1 - line[3], -line[4], 1 - line[5]};
+}
+
 Tensor surface_tensor(const Tensor& mean, const Point& normal, double theta, double a1, double a2) {
   const Point line = mean_line(mean, normal), d = turned(line, cross(normal, line), theta);
   Tensor t = line_tensor(d);
@@ -58,7 +64,9 @@ Tensor surface_tensor(const Tensor& mean, const Point& normal, double theta, dou
 
 Tensor volume_tensor(const Tensor& mean, double a1, double a2) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(matrix_of(mean));
-  const Eigen::Vector3d d = axes.eigenvectors().col(2);
+  const bool plane = mean[0] + mean[3] + mean[5] > 1.5;
+  const Eigen::Vector3d d = axes.eigenvectors().col(plane ? 0 : 2);
+  if (plane) std::swap(a1, a2);
   const Eigen::Matrix3d t = a2 * a2 * Eigen::Matrix3d::Identity() + (a1 * a1 - a2 * a2) * d * d.transpose();
   return {t(0, 0), t(0, 1), t(0, 2), t(1, 1), t(1, 2), t(2, 2)};
 }

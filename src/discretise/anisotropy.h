@@ -13,12 +13,16 @@ Eigen::Matrix3d matrix_of(const Tensor& tensor);
 /// d d', by which a line of either sense is known.
 Tensor line_tensor(const Point& d);
 
+/// 1 - d d', by which the plane across a line is known.
+Tensor plane_tensor(const Point& d);
+
 /// T = a1^2 d d' + a2^2 e e' on a surface with this normal: d is the tangent line nearest to a mean of lines, turned by
 /// theta counter-clockwise seen from outside, and e is across it.
 Tensor surface_tensor(const Tensor& mean_of_lines, const Point& normal, double theta, double a1, double a2);
 
-/// T = a1^2 d d' + a2^2 (1 - d d') in a volume, with the main direction d of a mean of lines.
-Tensor volume_tensor(const Tensor& mean_of_lines, double a1, double a2);
+/// T = a1^2 P + a2^2 (1 - P) in a volume, where P projects onto the line, or the plane, nearest to a mean of such: its
+/// trace tells which.
+Tensor volume_tensor(const Tensor& mean, double a1, double a2);
 /// There the rates have no other angle than 0: Error(Fault::usage).
 void require_unturned(const Kinetics::TensorField& rates);
 

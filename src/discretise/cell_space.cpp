@@ -222,6 +222,13 @@ std::vector<Eigen::Vector2d> CellSpace::slopes(const Vector& u) const {
   return result;
 }
 
+std::vector<Point> CellSpace::gradients(const Vector& u) const {
+  std::vector<Point> result;
+  for (const Eigen::Vector2d& slope : slopes(u))
+    result.push_back(TangentFrame(cells_.normals[result.size()]).out({slope[0], slope[1]}));
+  return result;
+}
+
 Vector CellSpace::gradient_product(SampleRule, const Vector& u, const Vector& v) const {
   const std::vector<Eigen::Vector2d> a = slopes(u), b = slopes(v);
   Vector product(unknowns());

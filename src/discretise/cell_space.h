@@ -45,6 +45,10 @@ class CellSpace final : public Space {
 
   const Cells& cells() const { return cells_; }
   const std::vector<double>& area() const { return area_; }
+  /// Tangential, by least squares over the neighbours [1 / world].
+  std::vector<Point> gradients(const Vector& u) const;
+  /// Shape operators as tensors in space, as those of discretise/curvature.h.
+  std::vector<Tensor> curvature() const;
 
  private:
   /// Lengths of sides over distances, or coefficients after Turk, as a cell sees them: per entry of its row.
@@ -58,7 +62,6 @@ class CellSpace final : public Space {
   SparseMatrix joined(const Sides& sides, const Between& between) const;
   Eigen::Matrix2d moments(std::size_t cell) const;
   std::vector<Eigen::Vector2d> slopes(const Vector& u) const;
-  std::vector<Tensor> curvature() const;
 
   const Cells cells_;
   const Coefficients coefficients_;

@@ -31,7 +31,7 @@ class TetSpace final : public Space {
   ElementPoint element_point(Index face, double v, double w) const override;
   PlaceGeometry geometry(SampleRule rule, bool with_curvature) const override;
   std::vector<double> at_quadrature_points(const std::vector<double>& at_nodes) const override;
-  /// d is the line's own direction and n n' all that is across it; Error(Fault::usage) for a theta other than 0.
+  /// With lines or planes, see volume_tensor; Error(Fault::usage) for a theta other than 0.
   std::vector<Tensor> tensors(const std::vector<Tensor>& lines, const Kinetics::TensorField& rates) const override;
   std::vector<char> interior(std::vector<char> nodes) const override;
   /// "skin": all of it.

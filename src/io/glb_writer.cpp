@@ -15,6 +15,7 @@
 #include "base/box.h"
 #include "base/random.h"
 #include "base/suggest.h"
+#include "io/gltf_coat.h"
 #include "io/gltf_document.h"
 #include "pelage/error.h"
 #include "pelage/io.h"
@@ -229,11 +230,9 @@ Placement placement_of(const TriangleMesh& mesh) {
   return place;
 }
 
-tinygltf::Material coat_material(const std::string& name, bool double_sided) {
+tinygltf::Material named_material(const std::string& name, bool double_sided) {
   tinygltf::Material material;
   material.name = name;
-  material.pbrMetallicRoughness.metallicFactor = 0;
-  material.pbrMetallicRoughness.roughnessFactor = 0.8;  // short hair: a broad, faint highlight
   material.doubleSided = double_sided;
   return material;
 }
@@ -352,7 +351,7 @@ void add_materials(tinygltf::Model& model, const TriangleMesh& mesh) {
   const Attribute* material = labels(mesh, "material");
   const bool closed = is_closed(mesh.triangles);
   for (std::size_t i = 0; i < (material ? material->labels.size() : 1); ++i)
-    model.materials.push_back(coat_material(as_utf8(label_of(material, i, "coat")), !closed));
+    model.materials.push_back(named_material(as_utf8(label_of(material, i, "coat")), !closed));
 }
 
 /// As PNG; returns the number of the texture.
@@ -453,7 +452,7 @@ bool has_normal_map(const std::vector<TextureMaps>& maps) {
 std::string encode_glb(const TriangleMesh& original, const GlbOptions& options) {
   if (original.triangles.empty()) throw Error(Fault::output, "a GLB file needs at least one triangle");
   TriangleMesh mesh = original;
-  if (!options.textures.empty()) std::erase_if(mesh.attributes, [](const Attribute& a) { return a.name == "color"; });
+  if (!options.textures.empty()) erase_imaged(mesh.attributes);
   if (options.up == UpAxis::z) stand_up(mesh);
   const Placement place = placement_of(mesh);
   const bool tangents = has_normal_map(options.textures);
@@ -464,7 +463,9 @@ std::string encode_glb(const TriangleMesh& original, const GlbOptions& options) 
   model.scenes.resize(1);
   model.defaultScene = 0;
   add_materials(model, mesh);
+  for (tinygltf::Material& m : model.materials) set_coat(mesh, model, m);
   if (!options.textures.empty()) add_textures(model, options.textures, options.repeat);
+  mesh = without_told_channels(std::move(mesh));
   const Attribute* object = labels(mesh, "object");
   const auto objects = faces_by_label(object, mesh.triangles.size());
   std::vector<std::int32_t> number(mesh.points.size(), -1);

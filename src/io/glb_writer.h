@@ -30,8 +30,9 @@ struct GlbOptions {
 ///               other than letters, digits and _ become _ (wider ones are split into _NAME_0 ...)
 ///   TANGENT     float, where there is a normal map: corner_tangents() of the mesh, which needs a "normal"
 /// Vertices are split where attributes at corners differ. Where faces have an "object", every object is a node and a
-/// mesh of its own and its name; where they have a "material", a mesh has a part for each. The material is a plain
-/// dielectric (metallic 0, roughness 0.8), double-sided if the surface is not closed. Error(Fault::output) above 4 GiB.
+/// mesh of its own and its name; where they have a "material", a mesh has a part for each. The material is what
+/// the mesh says of pelage/channel.h, or else a plain dielectric (metallic 0, roughness 0.8: short hair with a broad,
+/// faint highlight); it is double-sided if the surface is not closed. Error(Fault::output) above 4 GiB.
 std::string encode_glb(const TriangleMesh& mesh, const GlbOptions& options = {});
 
 }  // namespace pelage

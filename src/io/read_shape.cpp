@@ -17,6 +17,7 @@
 #include "io/stl_reader.h"
 #include "io/tet_file.h"
 #include "io/text_scanner.h"
+#include "io/vtp_reader.h"
 #include "pelage/io.h"
 #include "shape/builtin_grids.h"
 #include "shape/generators.h"
@@ -32,12 +33,14 @@ struct Format {
   const char* extension;
   const char* magic;  ///< the first bytes of every such file, or nullptr
   RawShape (*read)(std::string_view bytes, const std::string& path);
-  std::optional<double> metres_per_unit;  ///< that the format prescribes or everybody takes
+  std::optional<double>
+      metres_per_unit;  ///< that the format prescribes or everybody takes, where the file says nothing
 };
 
 constexpr Format formats[] = {
     {".obj", nullptr, read_obj, {}}, {".ply", "ply", read_ply, {}},    {".stl", nullptr, read_stl, 0.001},
     {".off", nullptr, read_off, {}}, {".gltf", nullptr, read_gltf, 1}, {".glb", "glTF", read_gltf, 1},
+    {".vtp", nullptr, read_vtp, {}},
 };
 
 const Format& format_of(const std::string& path) {
@@ -92,7 +95,7 @@ void guess_up(RawShape& raw, const Format& format, std::string_view bytes) {
 
 /// STL has no unit, but programs for printing take millimetres.
 void take_unit(RawShape& raw, const Format& format) {
-  raw.metres_per_unit = format.metres_per_unit;
+  if (!raw.metres_per_unit) raw.metres_per_unit = format.metres_per_unit;
   if (format.read == read_stl)
     raw.findings.push_back({"unit", "STL says no unit: taken as millimetres, --input-unit if not", 0, 0, false});
 }
@@ -135,11 +138,12 @@ std::string only_name(const RawShape& raw) {
 bool is_normal(const Attribute& a) { return a.name == "normal" && a.components == 3; }
 
 /// Points without faces are the vertices of a mesh without triangles, in the order of the file. Scanners write them as
-/// PLY; in other formats the faces are more likely to have been lost.
+/// PLY, ParaView as VTP; in other formats the faces are more likely to have been lost.
 bool is_cloud(const RawShape& raw, const std::string& path) {
   const bool points = raw.mesh.face_ends.empty() && raw.mesh.points.size() >= fewest_of_cloud;
-  if (points && lower_extension(path) != ".ply")
-    throw Error(Fault::input, "the shape has points and no faces; clouds of points are read from PLY", {path});
+  const std::string extension = lower_extension(path);
+  if (points && extension != ".ply" && extension != ".vtp")
+    throw Error(Fault::input, "the shape has points and no faces; clouds of points are read from PLY or VTP", {path});
   return points;
 }
 

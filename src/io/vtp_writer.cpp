@@ -1,6 +1,7 @@
 #include "io/vtp_writer.h"
 
 #include <cstdint>
+#include <numeric>
 
 #include "io/bytes.h"
 #include "io/ply_writer.h"
@@ -26,14 +27,24 @@ void append_points(std::string& text, const PolygonMesh& mesh) {
   text += "</Points>\n";
 }
 
-void append_polygons(std::string& text, const PolygonMesh& mesh) {
-  std::string corners, ends;
-  for (std::int32_t v : mesh.corners) append_bytes(corners, v);
-  for (std::size_t end : mesh.face_ends) append_bytes(ends, static_cast<std::int32_t>(end));
-  text += "<Polys>\n";
-  append_vtk_array(text, "Int32", "connectivity", 1, corners);
+void append_cells(std::string& text, const char* kind, const std::vector<std::int32_t>& corners,
+                  const std::vector<std::size_t>& cell_ends) {
+  std::string numbers, ends;
+  for (const std::int32_t v : corners) append_bytes(numbers, v);
+  for (const std::size_t end : cell_ends) append_bytes(ends, static_cast<std::int32_t>(end));
+  text += std::string("<") + kind + ">\n";
+  append_vtk_array(text, "Int32", "connectivity", 1, numbers);
   append_vtk_array(text, "Int32", "offsets", 1, ends);
-  text += "</Polys>\n";
+  text += std::string("</") + kind + ">\n";
+}
+
+/// VTK's programs show what is in cells only: of a cloud every point is one.
+void append_vertices(std::string& text, std::size_t count) {
+  std::vector<std::int32_t> points(count);
+  std::vector<std::size_t> ends(count);
+  std::iota(points.begin(), points.end(), 0);
+  std::iota(ends.begin(), ends.end(), 1);
+  append_cells(text, "Verts", points, ends);
 }
 
 }  // namespace
@@ -43,8 +54,9 @@ std::string encode_vtp(const PolygonMesh& original) {
   std::string text = vtk_head("PolyData") + ">\n";
   const std::string labels = vtk_labels(mesh.attributes);
   if (!labels.empty()) text += "<FieldData>\n" + labels + "</FieldData>\n";
-  text += "<Piece NumberOfPoints=\"" + std::to_string(mesh.points.size()) +
-          "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
+  const std::size_t vertices = mesh.face_ends.empty() ? mesh.points.size() : 0;
+  text += "<Piece NumberOfPoints=\"" + std::to_string(mesh.points.size()) + "\" NumberOfVerts=\"" +
+          std::to_string(vertices) + "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
           std::to_string(mesh.face_count()) + "\">\n";
   text += vtk_point_data_tag(mesh.attributes);
   append_attributes(text, mesh, Domain::vertex);
@@ -52,7 +64,8 @@ std::string encode_vtp(const PolygonMesh& original) {
   append_attributes(text, mesh, Domain::face);
   text += "</CellData>\n";
   append_points(text, mesh);
-  append_polygons(text, mesh);
+  if (vertices > 0) append_vertices(text, vertices);
+  append_cells(text, "Polys", mesh.corners, mesh.face_ends);
   return text + "</Piece>\n" + vtk_tail("PolyData");
 }
 

@@ -13,6 +13,7 @@
 #include "base/suggest.h"
 #include "io/atomic_file.h"
 #include "io/glb_writer.h"
+#include "io/gltf_coat.h"
 #include "io/obj_writer.h"
 #include "io/off_writer.h"
 #include "io/ply_writer.h"
@@ -183,7 +184,7 @@ std::string upper_name(const Writer& writer) {
 std::vector<std::string> losses_of(const Writer& writer, const std::vector<Point>& points,
                                    const std::vector<Attribute>& attributes, const std::vector<FileLink>& links,
                                    bool polygons) {
-  std::vector<std::string> lost, rounded, result;
+  std::vector<std::string> lost, rounded, hidden, result;
   for (const Attribute& a : attributes) {
     const Keeping keeping = writer.keeps(a);
     if (keeping == Keeping::lost) lost.push_back(a.name);
@@ -199,6 +200,10 @@ std::vector<std::string> losses_of(const Writer& writer, const std::vector<Point
   if (!lost.empty())
     result.push_back(upper_name(writer) + " cannot hold " + listed(lost) + ": left out" +
                      (bare ? "; GLB, PLY, OBJ, VTP and OFF hold colours" : ""));
+  if (std::string(writer.extension) == ".glb")
+    for (const Attribute& a : attributes)
+      if (const std::string unseen = unseen_in_gltf(a); !unseen.empty()) hidden.push_back(unseen);
+  if (!hidden.empty()) result.push_back("viewers of GLB do not show " + listed(hidden) + "; as images they do");
   if (!rounded.empty())
     result.push_back(upper_name(writer) + " holds fewer digits of " + listed(rounded) + ": rounded");
   return result;

@@ -7,8 +7,10 @@
 #include "base/box.h"
 #include "base/number.h"
 #include "base/suggest.h"
+#include "look/solid_tessellation.h"
 #include "pelage/error.h"
 #include "shape/grid.h"
+#include "shape/normals.h"
 #include "shape/tet_mesh.h"
 #include "shape/vectors.h"
 
@@ -221,12 +223,15 @@ std::string fit_level(Carving& carving, const CoatFields& fields) {
 
 TriangleMesh dress_body(const CoatFields& fields, const Look& look, const Carving& carving) {
   const Paint paint = resolve_paint(look, fields.species);
-  const Tessellation nodes = tessellate(fields, tessellation_request(look, paint));
+  const TessellationRequest request = tessellation_request(look, paint);
+  const Tessellation nodes = tessellate_nodes(fields, request);
+  const Palette palette = make_palette(paint, nodes.samples, fields.uniform);
+  if (carving.empty() && shows_surface(fields.nodes)) return dress(tessellate(fields, request), palette);
   std::vector<Cut> cuts = cuts_of(carving.cuts, places_of(nodes));
   if (carving.part) cuts.insert(cuts.begin(), cut_of(*carving.part, fields));
   const CarvedBody body = body_of(fields, cuts);
-  TriangleMesh mesh = dress(at_vertices(nodes, body), make_palette(paint, nodes.samples, fields.uniform));
-  mesh.set(corner_normals(body, mesh.points));
+  TriangleMesh mesh = dress(at_vertices(nodes, body), palette);
+  mesh.set(corner_normals(body.triangles, mesh.points, body.side));
   return mesh;
 }
 

@@ -39,6 +39,8 @@ LevelPart parse_level_part(const std::string& text);
 struct Carving {
   std::vector<SpaceCut> cuts;
   std::optional<LevelPart> part;
+
+  bool empty() const { return cuts.empty() && !part; }
 };
 
 /// Whether anything is left of a volume (tetrahedra or a block) with these nodes. Error(Fault::usage) for too many
@@ -49,9 +51,10 @@ bool leaves_something(const NodeShape& volume, const std::vector<Point>& nodes, 
 /// part where it is the same everywhere. Says so, or returns an empty text. Error(Fault::usage) for an unknown species.
 std::string fit_level(Carving& carving, const CoatFields& fields);
 
-/// The surface of a coat in a volume, closed and flat: of what the carving leaves of it, coloured as the volume is,
-/// with the attributes of dress() and "normal" at corners, sharp at the edges of cuts. Triangles are split until the
-/// colours are smooth. A part has its level. Error(Fault::usage) where nothing is left, and those of dress().
+/// The surface of a coat in a volume, flat, coloured as the volume is, with the attributes of dress() and "normal" at
+/// corners, sharp at edges. Of a volume that fills a surface this surface, as tessellate() gives it; with a carving,
+/// and of other volumes, the closed surface of what that leaves, split until the colours are smooth. A part has its
+/// level. Error(Fault::usage) where nothing is left, and those of dress().
 TriangleMesh dress_body(const CoatFields& fields, const Look& look, const Carving& carving);
 
 }  // namespace pelage

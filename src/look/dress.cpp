@@ -4,6 +4,9 @@
 #include <set>
 #include <utility>
 
+#include "shape/normals.h"
+#include "shape/relief.h"
+
 namespace pelage {
 
 namespace {
@@ -19,6 +22,14 @@ std::vector<double> flattened(const std::vector<Point>& vectors) {
 std::string attribute_name(std::string field) {
   std::ranges::replace(field, '.', '_');
   return field;
+}
+
+/// By its heights, which it then has in its vertices.
+TriangleMesh displaced(TriangleMesh mesh) {
+  const std::string_view height = kind_of(Channel::height).attribute;
+  const std::vector<double> values = mesh.find(height)->values;
+  std::erase_if(mesh.attributes, [&](const Attribute& a) { return a.name == height; });
+  return raised(std::move(mesh), values);
 }
 
 /// The attributes of a coat and those that it finds.
@@ -64,19 +75,25 @@ TriangleMesh dress(Tessellation t, const Palette& palette) {
         {std::string(kind_of(channel).attribute), 1, Domain::vertex, channel_values(t.samples, paint, channel)});
   rename_input(t.attributes, paint);
   TriangleMesh mesh{std::move(t.samples.position), std::move(t.triangles), {}, std::move(t.links), t.metres_per_unit};
-  mesh.set({"normal", 3, Domain::vertex, flattened(t.samples.normal)});
+  mesh.set(t.sharp ? corner_normals(mesh.triangles, mesh.points)
+                   : Attribute{"normal", 3, Domain::vertex, flattened(t.samples.normal)});
   mesh.set({"color", 3, Domain::vertex, std::move(color)});
   for (std::size_t i = 0; paint.fields && i < t.samples.fields.size(); ++i)
     mesh.set({attribute_name(paint.species[i]), 1, Domain::vertex, std::move(t.samples.fields[i])});
   for (auto* more : {&channels, &t.attributes})
     for (Attribute& a : *more) mesh.set(std::move(a));
-  return mesh;
+  return paint.displace && paint.channels.contains(Channel::height) ? displaced(std::move(mesh)) : mesh;
 }
 
 Grid on_grid(Grid grid, const TriangleMesh& coat) {
   grid.attributes = coat.attributes;
   if (grid.even()) std::erase_if(grid.attributes, [](const Attribute& a) { return a.name == "normal"; });
   return grid;
+}
+
+TriangleMesh dress_nodes(const CoatFields& fields, const Look& look) {
+  const Paint paint = resolve_paint(look, fields.species);
+  return dress(tessellate_nodes(fields, tessellation_request(look, paint)), paint, fields.uniform);
 }
 
 TriangleMesh dress(const CoatFields& fields, const Look& look) {

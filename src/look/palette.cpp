@@ -147,6 +147,7 @@ Paint resolve_paint(const Look& look, std::vector<std::string> species) {
   for (const Layer& layer : look.layers) paint.layers.push_back(resolve_layer(layer, paint.species));
   for (const auto& [channel, text] : look.channels)
     paint.channels.emplace(channel, ChannelFormula{layer_formula(text, paint.species), text.where});
+  paint.displace = look.displace;
   paint.shown = shown_species(paint.species, look);
   return paint;
 }

@@ -38,6 +38,7 @@ struct Paint {
   bool fields = true;              ///< whether the coat carries the species as attributes
   std::vector<PaintLayer> layers;  ///< the first one lowest
   std::map<Channel, ChannelFormula> channels = {};
+  bool displace = false;  ///< heights move the vertices
 
   /// What layers and channels read from the place, species and fields included.
   std::vector<Symbol> symbols() const;

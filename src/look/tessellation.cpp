@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "look/cell_tessellation.h"
+#include "look/solid_tessellation.h"
 #include "pelage/error.h"
 #include "shape/locate.h"
 #include "shape/loop_subdivision.h"
@@ -235,9 +236,10 @@ void give_sides(Tessellation& t) {
   }
 }
 
-/// The nodes of a shape whose nodes are what they are: as fine as its colours can be.
-Tessellation nodes_of_shape(const CoatFields& fields, const TessellationRequest& request) {
-  require_own_nodes(request);
+}  // namespace
+
+Tessellation tessellate_nodes(const CoatFields& fields, const TessellationRequest& request) {
+  if (!shows_surface(fields.nodes)) require_own_nodes(request);
   Tessellation t;
   t.triangles = fields.shape->triangles;
   PlaceGeometry places = fields.space->geometry(SampleRule::vertices, request.curvature);
@@ -251,18 +253,17 @@ Tessellation nodes_of_shape(const CoatFields& fields, const TessellationRequest&
   return t;
 }
 
-}  // namespace
-
 Tessellation tessellate(const CoatFields& fields, const TessellationRequest& request) {
   if (as<Cells>(fields.nodes)) return tessellate_cells(fields, request);
+  if (shows_surface(fields.nodes)) return tessellate_solid(fields, request);
   if (!fields.nodes) return Tessellator(fields, request).make();
-  Tessellation t = nodes_of_shape(fields, request);
+  Tessellation t = tessellate_nodes(fields, request);
   if (const Atlas* atlas = as<Atlas>(fields.nodes); atlas && atlas->one_sided) give_sides(t);
   return t;
 }
 
 CoatSamples samples_at_nodes(const CoatFields& fields, const TessellationRequest& request) {
-  return nodes_of_shape(fields, request).samples;
+  return tessellate_nodes(fields, request).samples;
 }
 
 }  // namespace pelage

@@ -13,6 +13,7 @@ struct Tessellation {
   std::vector<Attribute> attributes;           ///< of the shape but for its normals
   std::vector<FileLink> links;                 ///< of the shape
   std::optional<double> metres_per_unit = {};  ///< of the shape
+  bool sharp = false;                          ///< whether it is to have edges where triangles meet at large angles
   std::vector<MeshPlace> on_mesh = {};  ///< of the samples on the mesh of the fields, if they have one of their own
 };
 
@@ -44,10 +45,14 @@ int levels_to_split(double edge, std::size_t triangles, double wavelength, const
 void take_rest(const CoatFields& fields, const TriangleMesh& shape, const TessellationRequest& request,
                Tessellation& t);
 
-/// Error(Fault::usage) for a detail that needs more than 30 million triangles.
+/// Of a volume that fills a surface, this surface. Error(Fault::usage) for a detail that needs more than 30 million
+/// triangles.
 Tessellation tessellate(const CoatFields& fields, const TessellationRequest& request);
 
-/// The samples of a coat on a shape whose nodes are what they are, one for each of them. The same errors.
+/// The nodes of a shape whose nodes are what they are, with its triangles, of a volume those of the skin. The same
+/// errors.
+Tessellation tessellate_nodes(const CoatFields& fields, const TessellationRequest& request);
+/// Their samples alone.
 CoatSamples samples_at_nodes(const CoatFields& fields, const TessellationRequest& request);
 
 }  // namespace pelage

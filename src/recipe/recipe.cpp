@@ -237,6 +237,7 @@ Look read_look(const Value& table) {
   if (const Value* v = table.find("flat")) look.flat = v->boolean();
   if (const Value* v = table.find("layers"))
     for (const Value& layer : v->items()) look.layers.push_back(read_layer(layer));
+  if (const Value* v = table.find("displace")) look.displace = v->boolean();
   for (const ChannelKind& kind : channel_kinds)
     if (const Value* v = table.find(std::string(kind.name))) look.channels[kind.channel] = formula_or_number(*v);
   if (const Value* v = table.find("detail")) look.detail = static_cast<int>(whole_number(*v, 0, most_detail));

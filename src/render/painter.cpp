@@ -9,7 +9,6 @@
 #include "base/parallel.h"
 #include "render/gloss.h"
 #include "render/sampler.h"
-#include "render/sampler.h"
 
 namespace pelage {
 

@@ -50,10 +50,11 @@ Vector3f Paths::from_lamp(const SurfacePoint& point, const Brdf& brdf, const Den
   if (even_) return Vector3f::Zero();
   const Vector3f to_lamp = studio_.key_direction(random.next());
   const Vector3f light = Frame(point.normal).to_local(to_lamp);
-  if (light.z() <= 0 || to_lamp.dot(point.face_normal) <= 0 || scene_.occluded(point.lifted, to_lamp))
-    return Vector3f::Zero();
+  if (light.z() <= 0 || to_lamp.dot(point.face_normal) <= 0) return Vector3f::Zero();
   const float share = balance(studio_.key_density(to_lamp), density(light));
-  return share * pi * light.z() * studio_.key().cwiseProduct(brdf(light));
+  const Vector3f sent = share * pi * light.z() * studio_.key().cwiseProduct(brdf(light));
+  constexpr float worth_a_ray = 1e-3F;
+  return brightest(sent) < worth_a_ray || scene_.occluded(point.lifted, to_lamp) ? Vector3f(0, 0, 0) : sent;
 }
 
 Vector3f Paths::mirrored(const SurfacePoint& point, const Reflection& surface, const Vector3f& direction,

@@ -87,6 +87,8 @@ void check(const PictureOptions& options) {
     throw Error(Fault::usage, "the picture's width and height must lie between 1 and 32768 pixels");
   if (!inside(options.samples, 1, 65536))
     throw Error(Fault::usage, "the samples per pixel must lie between 1 and 65536");
+  if (!inside(options.exposure, -20, 20))
+    throw Error(Fault::usage, "the picture's exposure must lie between -20 and 20 stops");
   if (!inside(options.elevation, -89, 89) || !inside(options.azimuth, -3600, 3600))
     throw Error(Fault::usage,
                 "the camera's elevation must lie between -89 and 89 degrees, its azimuth within ten turns");
@@ -124,6 +126,7 @@ class Picture {
   Picture(const StandingMesh& model, const TriangleMesh& mesh, const PictureOptions& options)
       : rays_(rays_of(options.samples)),
         painter_(model.scene, model.points, mesh.triangles, options, rays_),
+        exposure_(static_cast<float>(std::exp2(options.exposure))),
         image_{options.width, options.height, std::vector<float>(std::size_t{3} * options.width * options.height)} {}
 
   Image paint(const Part& whole) {
@@ -174,7 +177,7 @@ class Picture {
     for (int y = row * Painter::tile; y < bottom; ++y)
       for (int x = column * Painter::tile; x < right; ++x)
         Eigen::Map<Vector3f>(image_.rgb.data() + 3 * (static_cast<std::size_t>(y) * image_.width + x)) =
-            painter_.color(band, x, y);
+            exposure_ * painter_.color(band, x, y);
   }
 
   /// Calls visit(column, row) for all squares of these rows, from several threads.
@@ -205,6 +208,7 @@ class Picture {
 
   Rays rays_;
   Painter painter_;
+  float exposure_;
   Image image_;
 };
 

@@ -1,7 +1,6 @@
 #pragma once
-// Direction fields on cells.
+// Direction fields on cells: those of meshes (direction/), with the sides between cells for links.
 
-#include <optional>
 #include <vector>
 
 #include "direction/guides.h"
@@ -9,12 +8,11 @@
 
 namespace pelage {
 
-/// A unit tangent per cell, of either sense. `given`: vectors that cells follow, 0 for none, or empty. Where a cell has
-/// none, lines are those of the smoothest field (of the connection Laplacian on the neighbours, whose planes are
-/// unfolded) between the others.
-std::vector<Point> cell_lines(const Cells& cells, const std::vector<Point>& given);
+/// A unit tangent per cell, of either sense: the field of lines that follows a wish.
+std::vector<Point> wished_lines(const Cells& cells, const FieldWish& wish);
 
-/// What a wish for an axis or a centre alone asks of each cell; 0 where it lies along the normal.
-std::vector<Point> wished_on_cells(const Cells& cells, const FieldWish& wish);
+/// The same where cells are given vectors to follow, 0 for none: their own exactly, and the smoothest field between
+/// them. `given` may be empty.
+std::vector<Point> completed_lines(const Cells& cells, const std::vector<Point>& given);
 
 }  // namespace pelage

@@ -10,6 +10,7 @@
 #include "direction/direction_field.h"
 #include "pelage/error.h"
 #include "run/cell_lines.h"
+#include "run/space_lines.h"
 #include "shape/finding.h"
 #include "shape/normals.h"
 #include "shape/scalar_attributes.h"
@@ -56,11 +57,18 @@ bool wishes(const Point& vector, const Point& normal) {
   return std::isfinite(size) && length(cross(normal, vector)) > least_tangent * size;
 }
 
-std::size_t clear_free(std::vector<Point>& vectors, const TriangleMesh& shape) {
-  const std::vector<Point> normals = vertex_normals(shape);
+/// Whether all components of a vector count, as there is no surface.
+bool is_spatial(const NodeShape& nodes) {
+  const Grid* grid = std::get_if<Grid>(&nodes);
+  return grid ? grid->dimension() != 2 : std::holds_alternative<TetMesh>(nodes);
+}
+
+std::size_t clear_free(std::vector<Point>& vectors, const TriangleMesh& shape, bool spatial) {
+  const std::vector<Point> normals = spatial ? std::vector<Point>() : vertex_normals(shape);
   std::size_t free = 0;
   for (std::size_t v = 0; v < vectors.size(); ++v) {
-    if (wishes(vectors[v], normals[v])) continue;
+    const double size = length(vectors[v]);
+    if (spatial ? std::isfinite(size) && size > 0 : wishes(vectors[v], normals[v])) continue;
     vectors[v] = {};
     ++free;
   }
@@ -78,7 +86,7 @@ void complete(std::vector<Point>& directions, const Connection& c) {
     if (!(length(directions[v]) > 0)) directions[v] = field.direction[v];
 }
 
-std::optional<GivenDirections> given_directions(const TriangleMesh& shape) {
+std::optional<GivenDirections> given_directions(const TriangleMesh& shape, bool spatial = false) {
   const VertexAttributes all = scalar_attributes(shape);
   const std::vector<Names> sets = component_names(all);
   if (sets.empty()) {
@@ -90,7 +98,7 @@ std::optional<GivenDirections> given_directions(const TriangleMesh& shape) {
   GivenDirections given{name_of(sets[0], shape), {}};
   const auto &x = all.at(sets[0][0]), &y = all.at(sets[0][1]), &z = all.at(sets[0][2]);
   for (std::size_t v = 0; v < x.size(); ++v) given.vectors.push_back({x[v], y[v], z[v]});
-  given.free = clear_free(given.vectors, shape);
+  given.free = clear_free(given.vectors, shape, spatial);
   return given;
 }
 
@@ -168,14 +176,15 @@ Point plain_direction(const FieldWish& wish, const Point& place) {
   return length(away) > 0 ? unit(away) : Point{1, 0, 0};
 }
 
-/// On an even grid; across an axis that is along the sheet.
-Point axis_on(const Grid& grid, const FieldWish& wish) {
+/// On an even grid; across an axis that is along the sheet, or the plane across it in a block.
+Tensor axis_on(const Grid& grid, const FieldWish& wish) {
   Point along = *wish.axis;
-  if (grid.dimension() < 2) return {1, 0, 0};
+  if (grid.dimension() < 2) return line_tensor({1, 0, 0});
   if (grid.dimension() == 2) along = {along[0], along[1], 0};
   if (!(length(along) > 0)) along = {1, 0, 0};
   along = unit(along);
-  return wish.across && grid.dimension() == 2 ? Point{-along[1], along[0], 0} : along;
+  if (!wish.across) return line_tensor(along);
+  return grid.dimension() == 2 ? line_tensor({-along[1], along[0], 0}) : plane_tensor(along);
 }
 
 Point tangential(const Point& vector, const Point& normal) {
@@ -183,19 +192,13 @@ Point tangential(const Point& vector, const Point& normal) {
   return unit({vector[0] - along * normal[0], vector[1] - along * normal[1], vector[2] - along * normal[2]});
 }
 
-/// Without a surface: the axis or the direction from a centre, or the vectors that the shape brings along; else along
-/// x.
-std::vector<Tensor> lines_in_space(const TriangleMesh& shape, const std::optional<FieldWish>& wish) {
-  std::vector<Tensor> lines;
-  if (wish && !is_plain(*wish))
-    throw Error(Fault::usage,
-                "directions of lines, blocks and volumes follow an axis or a centre; others need a surface");
-  const std::optional<GivenDirections> given = wish ? std::nullopt : given_directions(shape);
-  for (std::size_t v = 0; v < shape.points.size(); ++v)
-    lines.push_back(line_tensor(wish    ? plain_direction(*wish, shape.points[v])
-                                : given ? unit(given->vectors[v])
-                                        : Point{1, 0, 0}));
-  return lines;
+/// Without a surface: what is wished, or the vectors that the shape brings along; else along x.
+std::vector<Tensor> lines_in_space(const Space& space, const TriangleMesh& shape,
+                                   const std::optional<FieldWish>& wish) {
+  if (wish) return wished_in_space(space, shape.points, *wish);
+  const std::optional<GivenDirections> given = given_directions(shape, true);
+  return given ? given_in_space(space, given->vectors)
+               : std::vector<Tensor>(shape.points.size(), line_tensor({1, 0, 0}));
 }
 
 std::vector<Tensor> plain_lines_on_sheet(const TriangleMesh& shape, const FieldWish& wish) {
@@ -210,20 +213,16 @@ std::vector<Tensor> plain_lines_on_sheet(const TriangleMesh& shape, const FieldW
 
 std::vector<Tensor> lines_on_cells(const Cells& cells, const TriangleMesh& shape,
                                    const std::optional<FieldWish>& wish) {
-  if (wish && !is_plain(*wish))
-    throw Error(Fault::usage,
-                "directions on cells follow an axis, a centre or those that the shape brings along; others need the "
-                "method remeshed");
   const std::optional<GivenDirections> given = wish ? std::nullopt : given_directions(shape);
   std::vector<Tensor> lines;
-  for (const Point& d : cell_lines(cells, wish    ? wished_on_cells(cells, *wish)
-                                          : given ? given->vectors
-                                                  : std::vector<Point>{}))
+  for (const Point& d :
+       wish ? wished_lines(cells, *wish) : completed_lines(cells, given ? given->vectors : std::vector<Point>{}))
     lines.push_back(line_tensor(d));
   return lines;
 }
 
-std::vector<Tensor> grid_lines(const Grid& grid, const TriangleMesh& shape, const std::optional<FieldWish>& wish) {
+std::vector<Tensor> grid_lines(const Grid& grid, const Space& space, const TriangleMesh& shape,
+                               const std::optional<FieldWish>& wish) {
   if (!wish && component_names(scalar_attributes(shape)).empty()) {
     if (grid.even()) return {line_tensor({1, 0, 0})};
     std::vector<Tensor> lines;
@@ -231,21 +230,21 @@ std::vector<Tensor> grid_lines(const Grid& grid, const TriangleMesh& shape, cons
       lines.push_back(line_tensor(unit(along_first_axis(grid, v))));
     return lines;
   }
-  if (wish && wish->axis && is_plain(*wish) && grid.even()) return {line_tensor(axis_on(grid, *wish))};
-  if (grid.dimension() != 2) return lines_in_space(shape, wish);
+  if (wish && wish->axis && is_plain(*wish) && grid.even()) return {axis_on(grid, *wish)};
+  if (grid.dimension() != 2) return lines_in_space(space, shape, wish);
   if (wish && is_plain(*wish)) return plain_lines_on_sheet(shape, *wish);
   return vertex_lines(shape, wish, make_topology(shape.points.size(), shape.triangles));
 }
 
 }  // namespace
 
-std::vector<Tensor> node_lines(const NodeShape& nodes, const TriangleMesh& shape,
+std::vector<Tensor> node_lines(const NodeShape& nodes, const Space& space, const TriangleMesh& shape,
                                const std::optional<FieldWish>& wish) {
-  if (const Grid* grid = std::get_if<Grid>(&nodes)) return grid_lines(*grid, shape, wish);
+  if (const Grid* grid = std::get_if<Grid>(&nodes)) return grid_lines(*grid, space, shape, wish);
   if (const Cells* cells = std::get_if<Cells>(&nodes)) return lines_on_cells(*cells, shape, wish);
   if (std::holds_alternative<Atlas>(nodes))
     return vertex_lines(shape, wish, make_topology(shape.points.size(), shape.triangles));
-  return lines_in_space(shape, wish);
+  return lines_in_space(space, shape, wish);
 }
 
 FollowedDirections followed_directions(const TriangleMesh& shape, const std::optional<FieldWish>& wish,
@@ -254,7 +253,7 @@ FollowedDirections followed_directions(const TriangleMesh& shape, const std::opt
                                 : nodes && std::holds_alternative<TetMesh>(*nodes) ? "the x axis"
                                                                                    : "the smoothest field of lines";
   if (wish) return {"the directions of the recipe" + not_followed(shape, 0), ""};
-  const auto given = given_directions(shape);
+  const auto given = given_directions(shape, nodes && is_spatial(*nodes));
   if (!given) return {smoothest, ""};
   if (given->free == given->vectors.size())
     return {smoothest, given->name +

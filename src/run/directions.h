@@ -6,6 +6,7 @@
 
 #include "direction/guides.h"
 #include "discretise/anisotropy.h"
+#include "discretise/space.h"
 #include "pelage/node_shape.h"
 #include "shape/topology.h"
 
@@ -19,10 +20,13 @@ namespace pelage {
 std::vector<Tensor> vertex_lines(const TriangleMesh& shape, const std::optional<FieldWish>& wish,
                                  const Topology& topology);
 
-/// The same at nodes that are what they are, whose mesh is `shape`: on a grid without a wish and "direction" its first
-/// axis, in a volume without any x; an axis or a centre alone is followed as it is, without smoothing. One line where
-/// it is the same for all nodes. Error(Fault::usage) for wishes that only surfaces grant where it is none.
-std::vector<Tensor> node_lines(const NodeShape& nodes, const TriangleMesh& shape, const std::optional<FieldWish>& wish);
+/// The same at nodes that are what they are, whose mesh is `shape` and space `space`: on a grid without a wish and
+/// "direction" its first axis, in a volume without any x; an axis or a centre alone is followed as it is, without
+/// smoothing, but for cells, which are a surface. In blocks and volumes all components count, and across a line is a
+/// plane (see wished_in_space). One tensor where it is the same for all nodes. Error(Fault::usage) for wishes that only
+/// surfaces grant where it is none.
+std::vector<Tensor> node_lines(const NodeShape& nodes, const Space& space, const TriangleMesh& shape,
+                               const std::optional<FieldWish>& wish);
 
 /// What vertex_lines or, with nodes, node_lines follows, a line for people each.
 struct FollowedDirections {

@@ -81,7 +81,7 @@ TriangleMesh shape_now(const Program& program, const World& world) {
 }
 
 std::vector<Tensor> lines_at_nodes(const Program& program, const StageProgram& stage, const World& world) {
-  if (program.nodes) return node_lines(*program.nodes, *program.shape, stage.directions);
+  if (program.nodes) return node_lines(*program.nodes, world.space(), *program.shape, stage.directions);
   if (!world.hierarchy()) return {};  // a space that was given
   return world.at_nodes(vertex_lines(shape_now(program, world), stage.directions, world.hierarchy()->topology(0)));
 }

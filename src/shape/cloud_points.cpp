@@ -10,6 +10,7 @@
 #include "base/quantile.h"
 #include "pelage/error.h"
 #include "shape/cell_voronoi.h"
+#include "shape/finding.h"
 #include "shape/places.h"
 #include "shape/point_index.h"
 
@@ -135,7 +136,7 @@ std::vector<std::int32_t> different_points(const std::vector<Point>& points) {
 
 void require_enough(std::size_t count) {
   if (count < 2 * nearest)
-    throw Error(Fault::input, "a cloud of " + std::to_string(count) + " points is no surface: it needs at least " +
+    throw Error(Fault::input, "a cloud of " + counted(count, "point") + " is no surface: it needs at least " +
                                   std::to_string(2 * nearest) + " in different places");
 }
 
@@ -171,8 +172,13 @@ void choose_points(const TriangleMesh& mesh, CloudPoints& cloud) {
     if (!std::isfinite(reach)) reach = side;
 }
 
-/// Across the plane through the neighbours, of either sign.
-Point normal_of_plane(const CloudPoints& cloud, std::size_t i) {
+/// A plane through a point's neighbours.
+struct PlaneFit {
+  Point normal;    ///< of either sign
+  bool on_a_line;  ///< so that any plane through the line does as well
+};
+
+PlaneFit plane_of(const CloudPoints& cloud, std::size_t i) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
   for (const std::int32_t j : cloud.neighbours(i)) {
@@ -185,7 +191,29 @@ Point normal_of_plane(const CloudPoints& cloud, std::size_t i) {
   moments -= mean * mean.transpose() / count;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(moments);
   const Eigen::Vector3d n = axes.eigenvectors().col(0);
-  return {n[0], n[1], n[2]};
+  constexpr double least_width = 0.1;  // of their length
+  return {{n[0], n[1], n[2]}, axes.eigenvalues()[1] <= least_width * least_width * axes.eigenvalues()[2]};
+}
+
+/// Where nothing is given; `known` says where. Error(Fault::input) where most points are on lines.
+void fit_normals(const std::vector<char>& known, CloudPoints& cloud) {
+  std::vector<char> lined(known.size(), 0);
+  parallel_for(
+      known.size(),
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          if (known[i]) continue;
+          const PlaneFit fit = plane_of(cloud, i);
+          cloud.normal[i] = fit.normal;
+          lined[i] = fit.on_a_line;
+        }
+      },
+      chunk);
+  if (2 * at(std::ranges::count(lined, 1)) > lined.size())
+    throw Error(
+        Fault::input,
+        "the points lie along lines, in no surface; where they are lines of a scan, give points as dense across "
+        "them as along, or normals");
 }
 
 /// Whose sign is known: those that the file gives.
@@ -294,13 +322,7 @@ CloudPoints cloud_points(const TriangleMesh& mesh) {
   const std::size_t n = cloud.point.size();
   cloud.normal.resize(n);
   const std::vector<char> known = take_given(mesh, cloud);
-  parallel_for(
-      n,
-      [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-          if (!known[i]) cloud.normal[i] = normal_of_plane(cloud, i);
-      },
-      chunk);
+  fit_normals(known, cloud);
   Orientation(cloud, known).run();
   cloud.area.resize(n);
   parallel_for(

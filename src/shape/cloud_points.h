@@ -27,7 +27,8 @@ struct CloudPoints {
 
 /// Normals are those of the attribute "normal" of 3 components per vertex; where it is missing, or 0 or not finite for
 /// some, those of the planes of their neighbours, turned alike from neighbour to neighbour, the highest point of every
-/// part upwards. Error(Fault::input) where fewer than 2 * nearest points are left.
+/// part upwards. Error(Fault::input) where fewer than 2 * nearest points are left, or
+/// where most of them lie along lines.
 CloudPoints cloud_points(const TriangleMesh& mesh);
 
 /// Per point of a cloud; no more than half as much again as it is for most.

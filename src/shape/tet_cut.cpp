@@ -400,36 +400,4 @@ Cut level_cut(const std::vector<double>& values, double level) {
   return cut;
 }
 
-// --- normals ---
-
-Attribute corner_normals(const CarvedBody& body, const std::vector<Point>& points) {
-  static const double crease = std::cos(40 * std::acos(-1.0) / 180);
-  const auto at = [&](std::int32_t v) { return points[static_cast<std::size_t>(v)]; };
-  std::vector<Point> face;
-  std::vector<std::size_t> first(body.vertices() + 1);
-  for (const auto& [a, b, c] : body.triangles) {
-    face.push_back(cross(difference(at(b), at(a)), difference(at(c), at(a))));
-    for (const std::int32_t v : {a, b, c}) ++first[static_cast<std::size_t>(v) + 1];
-  }
-  for (std::size_t v = 0; v < body.vertices(); ++v) first[v + 1] += first[v];
-  std::vector<std::size_t> around(first.back()), next(first.begin(), first.end() - 1);
-  for (std::size_t t = 0; t < body.triangles.size(); ++t)
-    for (const std::int32_t v : body.triangles[t]) around[next[static_cast<std::size_t>(v)]++] = t;
-  Attribute normal{"normal", 3, Domain::corner, {}};
-  normal.values.reserve(9 * body.triangles.size());
-  for (std::size_t t = 0; t < body.triangles.size(); ++t)
-    for (const std::int32_t v : body.triangles[t]) {
-      Point sum{};
-      for (std::size_t k = first[static_cast<std::size_t>(v)]; k < first[static_cast<std::size_t>(v) + 1]; ++k) {
-        const Point& other = face[around[k]];
-        if (body.side[around[k]] == body.side[t] && dot(other, face[t]) >= crease * length(other) * length(face[t]))
-          for (std::size_t d = 0; d < 3; ++d) sum[d] += other[d];
-      }
-      const Point n =
-          length(sum) > 0 ? unit(sum) : Point{0, 0, 1};  // of triangles without an area any direction serves
-      normal.values.insert(normal.values.end(), n.begin(), n.end());
-    }
-  return normal;
-}
-
 }  // namespace pelage

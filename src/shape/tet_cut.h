@@ -63,8 +63,4 @@ CarvedBody carve(const TetMesh& volume, std::span<const Cut> cuts);
 /// first and the last node.
 CarvedBody carve(const Grid& block, std::span<const Cut> cuts);
 
-/// The normals of a body at the corners of its triangles: smooth but at edges of cuts and where faces meet at more than
-/// 40 degrees.
-Attribute corner_normals(const CarvedBody& body, const std::vector<Point>& points);
-
 }  // namespace pelage

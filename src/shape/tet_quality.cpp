@@ -16,10 +16,19 @@ std::array<Point, 4> corners(const TetMesh& mesh, const Tetrahedron& t) {
   return {at(0), at(1), at(2), at(3)};
 }
 
+double volume6(const Point& a, const Point& b, const Point& c, const Point& d) {
+  return dot(cross(difference(b, a), difference(c, a)), difference(d, a));
+}
+
 }  // namespace
 
-double signed_volume(const Point& a, const Point& b, const Point& c, const Point& d) {
-  return dot(cross(difference(b, a), difference(c, a)), difference(d, a)) / 6;
+double signed_volume(const Point& a, const Point& b, const Point& c, const Point& d) { return volume6(a, b, c, d) / 6; }
+
+std::array<double, 4> shares_in(const std::array<Point, 4>& corners, const Point& p) {
+  const auto& [a, b, c, d] = corners;
+  const double whole = volume6(a, b, c, d);
+  return {volume6(p, b, c, d) / whole, volume6(a, p, c, d) / whole, volume6(a, b, p, d) / whole,
+          volume6(a, b, c, p) / whole};
 }
 
 double volume_of(const TetMesh& mesh) {

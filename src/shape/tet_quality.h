@@ -11,6 +11,9 @@ namespace pelage {
 /// (b - a) x (c - a) . (d - a) / 6.
 double signed_volume(const Point& a, const Point& b, const Point& c, const Point& d);
 
+/// What each corner counts at a place in a tetrahedron, 1 together: linear, and negative beyond the opposite side.
+std::array<double, 4> shares_in(const std::array<Point, 4>& corners, const Point& place);
+
 /// Of all tetrahedra together [world units^3].
 double volume_of(const TetMesh& mesh);
 

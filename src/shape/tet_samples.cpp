@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/box.h"
+#include "shape/tet_quality.h"
 #include "shape/vectors.h"
 
 namespace pelage {
@@ -10,10 +12,6 @@ namespace pelage {
 namespace {
 
 constexpr double most_nodes = 67108864;  // 2^26
-
-double volume6(const Point& a, const Point& b, const Point& c, const Point& d) {
-  return dot(cross(difference(b, a), difference(c, a)), difference(d, a));
-}
 
 class Sampler {
  public:
@@ -41,17 +39,13 @@ class Sampler {
   }
 
   void lay_grid() {
-    Point low = volume_.points[0], high = low;
+    const auto [low, high] = box_of(volume_.points);
     double total = 0;
-    for (const Point& p : volume_.points)
-      for (std::size_t d = 0; d < 3; ++d) {
-        low[d] = std::min(low[d], p[d]);
-        high[d] = std::max(high[d], p[d]);
-      }
     for (std::size_t t = 0; t < volume_.tets.size(); ++t)
-      total += volume6(corner(t, 0), corner(t, 1), corner(t, 2), corner(t, 3)) / 6;
+      total += signed_volume(corner(t, 0), corner(t, 1), corner(t, 2), corner(t, 3));
     double step = std::cbrt(total / static_cast<double>(volume_.nodes()));
-    const auto cells = [&](std::size_t d) { return std::max(1.0, std::ceil((high[d] - low[d]) / step - 1e-9)); };
+    const Point size = difference(high, low);
+    const auto cells = [&](std::size_t d) { return std::max(1.0, std::ceil(size[d] / step - 1e-9)); };
     while ((cells(0) + 1) * (cells(1) + 1) * (cells(2) + 1) > most_nodes) step *= 1.1;
     for (std::size_t d = 0; d < 3; ++d) {
       block_.count[d] = 1 + static_cast<std::int32_t>(cells(d));
@@ -82,10 +76,7 @@ class Sampler {
 
   void try_node(std::size_t t, std::int32_t node) {
     if (tet_[static_cast<std::size_t>(node)] >= 0) return;
-    const Point p = block_.point(node), &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2), &d = corner(t, 3);
-    const double whole = volume6(a, b, c, d);
-    const Shares shares = {volume6(p, b, c, d) / whole, volume6(a, p, c, d) / whole, volume6(a, b, p, d) / whole,
-                           volume6(a, b, c, p) / whole};
+    const Shares shares = shares_in({corner(t, 0), corner(t, 1), corner(t, 2), corner(t, 3)}, block_.point(node));
     constexpr double slack = 1e-6;
     if (std::ranges::any_of(shares, [](double s) { return !(s >= -slack); })) return;
     tet_[static_cast<std::size_t>(node)] = static_cast<std::int32_t>(t);

@@ -12,6 +12,7 @@
 #include "shape/locate.h"
 #include "shape/tet_quality.h"
 #include "solid/crossings.h"
+#include "solid/pinches.h"
 #include "solid/stencil.h"
 
 namespace pelage {
@@ -287,7 +288,13 @@ Filling fill(const TriangleMesh& closed, double edge, std::size_t max_tets) {
     std::ranges::transform(winding, w.side.begin(), [](int n) { return n > 0 ? Side::inside : Side::outside; });
   }
   warp(w);
-  Filling result{numbered(w, stuff(w)), 0};
+  std::vector<KeyTet> tets = stuff(w);
+  remove_pinches(
+      tets, [&](std::int64_t key) { return key >= w.lattice.nodes() || w.moved[at(key)] >= 0; },
+      [&](const KeyTet& t) {
+        return std::abs(signed_volume(w.place(t[0]), w.place(t[1]), w.place(t[2]), w.place(t[3])));
+      });
+  Filling result{numbered(w, tets), edge, 0};
   if (result.volume.tets.empty())
     throw Error(Fault::input,
                 "edges of " + number(edge, 3) +
@@ -296,6 +303,21 @@ Filling fill(const TriangleMesh& closed, double edge, std::size_t max_tets) {
   result.volume.metres_per_unit = closed.metres_per_unit;
   carry_attributes(closed, result.volume);
   return result;
+}
+
+Filling fill_within(const TriangleMesh& closed, double edge, double share, std::size_t max_tets) {
+  Filling filling = fill(closed, edge, max_tets);
+  // What edges, corners and bends lose goes with the square of the edge, what is thin with more.
+  constexpr double least_share = 0.5;
+  constexpr int steps = 3;
+  for (int step = 0; step < steps && filling.lost > share && filling.edge > least_share * edge; ++step) {
+    const double wanted = filling.edge * std::min(0.95, std::sqrt(0.9 * share / filling.lost));
+    const double shorter = std::max(wanted, least_share * edge);
+    const double tets = static_cast<double>(filling.volume.tets.size()) * std::pow(filling.edge / shorter, 3);
+    if (tets > 0.9 * static_cast<double>(max_tets)) break;
+    filling = fill(closed, shorter, max_tets);
+  }
+  return filling;
 }
 
 }  // namespace pelage

@@ -30,7 +30,10 @@ TEST_P(EveryRecipe, RunsSmallAndIsDressed) {
   Recipe recipe = load_recipe(GetParam());
   EXPECT_EQ(recipe.name, GetParam());
   EXPECT_FALSE(recipe.summary.empty());
-  EXPECT_EQ(recipe.shape, recipe.name == "replication" ? "builtin:tile?n=256" : "builtin:animal");
+  const bool solid = recipe.stages[0].method.value == tets_method.name;
+  if (!solid) {
+    EXPECT_EQ(recipe.shape, recipe.name == "replication" ? "builtin:tile?n=256" : "builtin:animal");
+  }
   for (Stage& stage : recipe.stages) {
     stage.size->value.value = std::max(stage.size->value.value, 0.08);
     stage.steps = 3;

@@ -76,4 +76,6 @@ for scene in "$scenes"/*.glb; do
   report "three.js" "$scene" node "$here/check_gltf_reading.mjs" "$pelage"
 done
 report "Blender" "$modules/round-trip" blender -b --factory-startup --python-exit-code 3 -P "$here/blender_round_trip.py" -- "$pelage"
+tangents() { report Blender "$1" blender -b --factory-startup --python-exit-code 3 -P "$here/check_tangents.py" -- "$pelage"; }
+tangents "$modules/tangents"
 [ "$failures" -eq 0 ] || { echo "$failures checks failed" >&2; exit 1; }

@@ -10,10 +10,12 @@
 
 #include "direction/guides.h"
 #include "direction/hatching.h"
+#include "discretise/curvature.h"
 #include "pelage/error.h"
 #include "pelage/io.h"
 #include "shape/describe.h"
 #include "shape/generators.h"
+#include "shape/refine.h"
 #include "shape/vectors.h"
 
 namespace pelage {
@@ -137,7 +139,7 @@ TEST(DirectionField, RefusesWhatItDoesNotKnow) {
 /// Largest angle in degrees between a stroke and the field at the vertices nearest to it.
 double angle_to_stroke(const TriangleMesh& mesh, const std::vector<Point>& stroke) {
   const Connection c = connection_of(mesh);
-  const std::vector<Guide> guides = stroke_guides(c, mesh.points, stroke);
+  const std::vector<Guide> guides = stroke_guides(c, mesh.points, prevailing_edge(mesh.triangles, mesh.points), stroke);
   EXPECT_GT(guides.size(), 20U);
   double largest = 0;
   for (const int n : {1, 2, 4}) {
@@ -164,7 +166,7 @@ TEST(Guides, StrokesAreFollowed) {
   EXPECT_LE(angle_to_stroke(mesh, climbing), 5);
   EXPECT_LE(angle_to_stroke(builtin_shape("builtin:animal?n=4000"), flank), 5);
   const Connection c = connection_of(mesh);
-  EXPECT_THROW(stroke_guides(c, mesh.points, {{1, 0, 0}}), Error);
+  EXPECT_THROW(stroke_guides(c, mesh.points, 0.1, {{1, 0, 0}}), Error);
 }
 
 TEST(Guides, AnAxisGivesMeridians) {
@@ -197,7 +199,8 @@ TEST(Guides, CurvatureOfATorusRunsAroundItsTube) {
   const TriangleMesh mesh = builtin_shape("builtin:torus?n=2000");
   const Connection c = connection_of(mesh);
   const Discretisation d = loop_discretisation(c.topology);
-  const DirectionField field = direction_field(c, 2, curvature_guides(c, d, mesh.points, 1, Sense::across));
+  const DirectionField field =
+      direction_field(c, 2, curvature_guides(c, vertex_curvature(d, mesh.points), 1, Sense::across));
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
     EXPECT_LE(line_angle(field.direction[v], {-mesh.points[v][1], mesh.points[v][0], 0}), 3);
 }
@@ -212,7 +215,7 @@ TEST(Guides, HarmonicFunctionRunsFromEndToEnd) {
   }
   const std::vector<double> f = harmonic_function(c, low, high);
   for (std::size_t v = 0; v < f.size(); ++v) EXPECT_NEAR(f[v], mesh.points[v][0], 1e-8);
-  for (const Guide& g : gradient_guides(c, mesh.points, f, 1, Sense::along)) {
+  for (const Guide& g : gradient_guides(c, vertex_gradients(c.topology, mesh.points, f), 1, Sense::along)) {
     EXPECT_LE(line_angle(g.direction, {1, 0, 0}), 1e-3);
     EXPECT_GT(g.direction[0], 0);
   }
@@ -224,8 +227,8 @@ TEST(Guides, StrokesThatLeaveTheShapeFarBehindAreRefused) {
   const TriangleMesh mesh = builtin_shape("builtin:sphere?n=162");
   const Connection c = connection_of(mesh);
   for (const double far : {1e8, 1e300})
-    EXPECT_THROW(stroke_guides(c, mesh.points, {{1, 0, 0}, {far, 0, 0}}), Error) << far;
-  EXPECT_FALSE(stroke_guides(c, mesh.points, {{1, 0, 0}, {100, 0, 0}}).empty());
+    EXPECT_THROW(stroke_guides(c, mesh.points, 0.1, {{1, 0, 0}, {far, 0, 0}}), Error) << far;
+  EXPECT_FALSE(stroke_guides(c, mesh.points, 0.1, {{1, 0, 0}, {100, 0, 0}}).empty());
 }
 
 /// Strokes are drawn in the same places wherever the surface lies.

@@ -66,7 +66,7 @@ void write_everywhere(const PolygonMesh& mesh) {
     losses(mesh, extension);
     std::string bytes;
     if (!accepted([&] { bytes = mesh_bytes(mesh, extension); })) continue;
-    if (extension == ".ply") accepted([&] { read_shape_bytes(bytes, "again.ply"); });
+    if (extension == ".ply" || extension == ".vtp") accepted([&] { read_shape_bytes(bytes, "again" + extension); });
   }
 }
 
@@ -302,6 +302,7 @@ const std::vector<InputReader>& input_readers() {
                                                {"off", read_shape_as<"input.off">},
                                                {"gltf", read_shape_as<"input.gltf">},
                                                {"glb", read_shape_as<"input.glb">},
+                                               {"vtp", read_shape_as<"input.vtp">},
                                                {"mtl", read_materials},
                                                {"image", read_image},
                                                {"sheet", read_sheet},

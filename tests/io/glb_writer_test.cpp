@@ -38,11 +38,11 @@ TEST(GlbWriter, RoundTripSeams) {
 
 TEST(GlbWriter, ATextureIsTheBaseColourInsteadOfTheVertices) {
   const TriangleMesh mesh = test::seamed_mesh();
-  auto image = std::make_shared<Image>(Image{3, 2, {}});
-  for (int i = 0; i < 18; ++i) image->rgb.push_back(static_cast<float>(i) / 17);
+  auto image = std::make_shared<Pixels>(Pixels{3, 2, 3, {}});
+  for (int i = 0; i < 18; ++i) image->bytes.push_back(static_cast<std::uint8_t>(15 * i));
   TriangleMesh colored = mesh;
   colored.set({"color", 3, Domain::vertex, std::vector<double>(3 * mesh.points.size(), 0.5)});
-  const std::string bytes = encode_glb(colored, {"mesh", UpAxis::y, image}), json = json_of(bytes);
+  const std::string bytes = encode_glb(colored, {"mesh", UpAxis::y, {{image}}}), json = json_of(bytes);
   EXPECT_EQ(gltf_base_image(bytes, "a.glb"), png_bytes(*image));
   EXPECT_NE(json.find("\"baseColorTexture\":{\"index\":0}"), std::string::npos) << json;
   EXPECT_EQ(json.find("COLOR_0"), std::string::npos);

@@ -98,7 +98,7 @@ TEST(PngWriter, SizesAreCheckedFirst) {
       EXPECT_EQ(error.fault(), Fault::usage);
       EXPECT_NE(std::string(error.what()).find("at most 466 million pixels"), std::string::npos) << error.what();
     }
-  EXPECT_THROW(write_png({40000, 40000, {}}, "a.png"), Error);
+  EXPECT_THROW(write_png(Image{40000, 40000, {}}, "a.png"), Error);
 }
 
 TEST(PngWriter, PathIsCheckedFirst) {

@@ -83,6 +83,9 @@ TEST_F(ReadShape, PointsWithoutFacesAreACloud) {
   save(cloud.mesh, again);
   EXPECT_EQ(read_shape(again).mesh.points, cloud.mesh.points);
   EXPECT_THROW(save(cloud.mesh, folder_ + "a.glb"), Error);
+  std::string lost;
+  for (int i = 0; i < 40; ++i) lost += "v " + std::to_string(i) + " 0 0\n";
+  error("lost.obj", lost, ": the shape has points and no faces; clouds of points are read from PLY or VTP");
 }
 
 TEST_F(ReadShape, BlendersFilesStandOnZ) {

@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/srgb.h"
 #include "discretise/surface_evaluator.h"
+#include "pelage/io.h"
 #include "shape/generators.h"
+#include "shape/locate.h"
 #include "shape/vectors.h"
 
 namespace pelage {
@@ -152,11 +155,77 @@ TEST(Bake, ShowsTheFieldWhereTheSurfaceIsSeamsIncluded) {
   }
 }
 
-/// In halves of the image down to where the gutter is a texel wide, seams are no further off than other places.
+/// A mesh with uv of its own, which is laid into the image where it reaches over several.
+TriangleMesh shared_mesh(const std::string& path) {
+  TriangleMesh mesh = read_shape(path).mesh;
+  Attribute& uv = *mesh.find("uv");
+  double furthest = 0;
+  for (const double x : uv.values) furthest = std::max(furthest, x);
+  for (std::size_t i = 0; furthest > 2 && i < uv.values.size(); ++i)
+    uv.values[i] = 0.02 + 0.96 * uv.values[i] / (i % 2 == 0 ? 32.001 : 2.001);
+  return mesh;
+}
+
+/// How far it is on the mesh, at most, for a whole image along uv, on a face: the norm of the derivative.
+double stretch(const TriangleMesh& mesh, std::size_t face) {
+  const std::vector<double>& uv = mesh.find("uv")->values;
+  const auto corner = [&](std::size_t k) { return mesh.points[static_cast<std::size_t>(mesh.triangles[face][k])]; };
+  const auto along = [&](std::size_t k, std::size_t c) { return uv[2 * (3 * face + k) + c] - uv[6 * face + c]; };
+  const double det = along(1, 0) * along(2, 1) - along(2, 0) * along(1, 1);
+  const Point b = difference(corner(1), corner(0)), c = difference(corner(2), corner(0));
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    for (const double d : {b[k] * along(2, 1) - c[k] * along(1, 1), c[k] * along(1, 0) - b[k] * along(2, 0)})
+      sum += d * d / (det * det);
+  return std::sqrt(sum);
+}
+
+double fine_waves(const Point& p) { return std::sin(50 * p[0]) * std::cos(40 * p[1] + 30 * p[2]); }
+
+/// A pattern of the size of spots on meshes of others, against the field at the nearest place of its own mesh among
+/// all, from where the limit surface lies.
+TEST(Bake, ShowsTheFieldOfItsOwnMeshOnMeshesOfOthers) {
+  for (const char* name : {"spot_uv_2930.obj", "knot_uv_1440.obj"}) {
+    const std::string path = std::string(PELAGE_SHARED_MESHES) + "/" + name;
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
+    TriangleMesh shape = shared_mesh(path);
+    const double size = box_of(shape.points).diagonal();
+    for (Point& p : shape.points)
+      for (double& x : p) x *= 3 / size;
+    const Coat coat(std::move(shape), remeshed_method, 0.015, fine_waves);
+    const BakedCoat result = baked(coat, painted("0.5 + 0.4*u"), 2048);
+    const SurfaceEvaluator surface = coat.surface();
+    const Topology& mesh = *coat.fields.mesh->shared_topology();
+    const SurfaceWalk walk(mesh, coat.fields.space->control());
+    const MeshFields anywhere(mesh.triangles, coat.fields.space->control(), coat.fields.coefficients);
+    constexpr double wave = 0.1, texels_of_wave = 20;
+    double sum = 0;
+    std::vector<double> errors;
+    at_random_places(*coat.fields.shape, 30'000, [&](const MeshPlace& place, std::array<double, 2> uv) {
+      for (double& x : uv) x -= std::floor(x);
+      if (std::min(uv[0], uv[1]) < 0.001 || std::max(uv[0], uv[1]) > 0.999) return;  // seen() does not repeat
+      // Where fewer texels go to a wave, what is between them is the business of viewers.
+      if (stretch(*coat.fields.shape, static_cast<std::size_t>(place.face)) * texels_of_wave > 2048 * wave) return;
+      const SurfaceSample at = surface.at(place.face, place.v, place.w);
+      const MeshPlace nearest = walk.search(Eigen::Vector3d(at.position.data()), Eigen::Vector3d(at.normal.data()));
+      errors.push_back(255 * std::abs(srgb_from_linear(seen(result.tiles[0].color, uv[0], uv[1])) -
+                                      srgb_from_linear(0.5 + 0.4 * anywhere.at(0, nearest))));
+      sum += errors.back();
+    });
+    std::ranges::sort(errors);
+    EXPECT_EQ(result.hidden.count, 0u) << name;
+    EXPECT_GT(errors.size(), 15'000u) << name;
+    RecordProperty(std::string(name) + "_count", std::to_string(errors.size()));
+    RecordProperty(std::string(name) + "_mean", std::to_string(sum / static_cast<double>(errors.size())));
+    RecordProperty(std::string(name) + "_999", std::to_string(errors[errors.size() * 999 / 1000]));
+    EXPECT_LT(sum / static_cast<double>(errors.size()), 1) << name;
+    EXPECT_LT(errors[errors.size() * 999 / 1000], 3) << name;
+  }
+}
+
 TEST(Bake, GuttersShowTheSurfaceBeyondTheBorder) {
   const Coat coat(torus(1000), remeshed_method, 0.05, waves);
   const BakedCoat result = baked(coat, painted("u"), 1024);
-  const SurfaceEvaluator surface = coat.surface();
   const std::vector<Triangle>& triangles = coat.fields.shape->triangles;
   const UvLayout layout(triangles, *coat.fields.shape->find("uv"), 1024);
   std::vector<Index> hidden;

@@ -68,6 +68,18 @@ TEST(Dress, ChannelsAreAttributes) {
   EXPECT_EQ(coat.find("material_metalness"), nullptr);
 }
 
+TEST(Dress, HeightsMoveVerticesWhereTheLookSaysSo) {
+  Look look;
+  look.channels[Channel::height] = {"b - 4", {}};
+  look.displace = true;
+  const TriangleMesh coat = dress(triangle({}), resolve_paint(look, {"large.b", "b"}), {0, 0});
+  EXPECT_EQ(coat.points, (std::vector<Point>{{0, 0, 0}, {1, 0, 1}, {0, 1, 2}}));
+  EXPECT_EQ(coat.find("material_height"), nullptr);
+  const std::vector<double>& n = coat.find("normal")->values;  // of the plane z = x + 2 y
+  EXPECT_NEAR(n[0] / n[2], -1, 1e-12);
+  EXPECT_NEAR(n[1] / n[2], -2, 1e-12);
+}
+
 /// An attribute that is called like a species: layers know the species by its name, and the attribute as files do.
 TEST(Dress, LayersReadWhatASpeciesHides) {
   Look look;

@@ -48,6 +48,11 @@ grows grow 'builtin:box?n=16' --model turing --size 8px --steps 20 --cut 'x>0.4 
 closed carved.ply
 grows grow block.vti --model turing --size 8px --steps 20 --isosurface b --cut 'y>0.8' -o solid.stl
 closed solid.stl
+# The surface that is filled comes back as it was, in the colours of the volume.
+grows grow 'builtin:sphere?n=642' --solid --model turing --size 0.3 --steps 5 --keep-shape -o kept.ply,volume.vtu
+"$pelage" check kept.ply | grep -q 'edges  *1920$' || fail "--solid --keep-shape keeps no shape"
+grows grow 'builtin:sphere?n=642' --solid --model turing --size 0.3 --steps 5 --cut 'x>0 and y>0' -o quarter.stl
+closed quarter.stl
 grows grid horseshoe --nodes 41x13 -o shoe.vts --picture lines.png
 grows grow shoe.vts --model turing --size 0.08 --steps 5 -o coat.vts,coat.ply
 grows grow builtin:cube-sphere --recipe leopard --size 0.1 --steps 5 -o sphere.glb --picture sphere.png --picture-size 64
@@ -88,7 +93,7 @@ refused 2 'is for even grids' grow 'builtin:sphere?n=642' --stepper etd -o a.glb
 refused 2 'diffusion that is the same everywhere' grow 'builtin:tile?n=48' --recipe zebra --stepper gaussian -o a.png
 refused 2 'these nodes stay where they are' grow 'builtin:tile?n=48' --fair -o a.png
 refused 2 'coloured at its own nodes' grow 'builtin:tile?n=48' --detail 2 -o a.png
-refused 2 'coloured at its own nodes' grow builtin:sphere --solid --keep-shape --size 0.3 -o a.glb
+refused 2 'show other surfaces than that of the shape' grow builtin:sphere --solid --keep-shape --cut 'x>0' --size 0.3 -o a.glb
 refused 2 'a line does in the course of time' grow 'builtin:tile?n=48' --plot a.png
 refused 2 'a block has no height' grow 'builtin:box?n=8' --model turing --size 4px --height-map a.png
 refused 2 'for sheets of grids' grow 'builtin:sphere?n=642' --height-map a.png

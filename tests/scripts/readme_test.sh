@@ -21,7 +21,7 @@ run_line() {
   local -a words quick=()
   read -ra words <<<"$1"
   [[ $1 == 'pelage grow'* ]] && quick+=(--steps 5 --detail 0)
-  [[ $1 == *' --picture '* ]] && quick+=(--picture-size 64)
+  [[ $1 == *' --picture '* && $1 != 'pelage unwrap'* ]] && quick+=(--picture-size 64)
   "$pelage" "${words[@]:1}" "${quick[@]}" >log 2>&1 </dev/null || { echo "FAILED: $1"; tail -3 log; failures=$((failures + 1)); return; }
   local file
   for file in $(tr ', ' '\n' <<<"$1" | grep -E '^[a-z]+\.(glb|ply|obj|png|html)$'); do

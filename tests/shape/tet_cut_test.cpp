@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "shape/normals.h"
 #include "shape/sample_volumes.h"
 #include "shape/tet_mesh.h"
 
@@ -289,7 +290,7 @@ TEST(CornerNormals, AreSmoothOnCurvesAndSharpAtEdges) {
   const Cut cut = plane_cut(nodes, {1, 1, 0}, 1.1);
   const CarvedBody body = carve(grid, {&cut, 1});
   const std::vector<Point> places = body.places(nodes);
-  const Attribute normal = corner_normals(body, places);
+  const Attribute normal = corner_normals(body.triangles, places, body.side);
   const TriangleMesh mesh = mesh_of(body, nodes);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {  // all faces are flat
     const Point flat = unit(test::area_vector(mesh, mesh.triangles[t]));

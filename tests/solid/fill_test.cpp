@@ -4,12 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "base/box.h"
 #include "base/parallel.h"
 #include "pelage/error.h"
 #include "shape/closest_point.h"
+#include "shape/edges.h"
 #include "shape/generators.h"
 #include "shape/tet_mesh.h"
 #include "shape/tet_quality.h"
@@ -105,6 +107,42 @@ TEST(Fill, PartsThatOverlapAreOne) {
   EXPECT_NEAR(volume_of(both.volume), 8 * pi / 3 - lens, 0.1);
   const auto skin = mesh_facts(mesh_of(both.volume));
   EXPECT_EQ(skin.euler - std::ranges::count(skin.valences, 0), 2);  // without walls inside
+}
+
+/// How many edges have other than two triangles.
+std::size_t bad_edges(const std::vector<Triangle>& triangles, std::size_t vertices) {
+  const EdgeTable edges(triangles, vertices);
+  std::size_t bad = 0;
+  for (std::size_t e = 0; e < edges.size(); ++e) bad += edges[e].size() != 2 ? 1 : 0;
+  return bad;
+}
+
+/// Boxes that nearly touch, at an edge or a face, meet in the same tetrahedra.
+TEST(Fill, SkinsAreManifoldsWherePartsNearlyTouch) {
+  const TriangleMesh cube = builtin_shape("builtin:cube");
+  const double size = box_of(cube.points).diagonal() / std::sqrt(3);
+  for (const Point& way : {Point{1.01, 1.01, 0.3}, {1.02, 0.4, 0.3}, {1.03, 1.02, 1.01}, {1.005, 0.7, 1.03}})
+    for (const double edges : {9, 26}) {
+      const TriangleMesh both = together(cube, cube, 1, {size * way[0], size * way[1], size * way[2]});
+      const Filling filling = fill(both, size / edges, many);
+      expect_sound(filling.volume);
+      EXPECT_EQ(bad_edges(mesh_of(filling.volume).triangles, filling.volume.nodes()), 0U) << way[0] << " " << edges;
+      EXPECT_LT(std::abs(filling.lost), 0.06);
+    }
+}
+
+/// Thin walls: with a shorter edge more of them is there.
+TEST(Fill, TakesShorterEdgesForTheVolume) {
+  TriangleMesh plate = builtin_shape("builtin:cube");
+  for (Point& p : plate.points) p[2] *= 0.06;
+  const double edge = box_of(plate.points).diagonal() / 15;
+  EXPECT_GT(fill(plate, edge, many).lost, 0.02);
+  const Filling filling = fill_within(plate, edge, 0.02, many);
+  EXPECT_LE(filling.lost, 0.02);
+  EXPECT_LT(filling.edge, edge);
+  EXPECT_GE(filling.edge, edge / 2);
+  EXPECT_NEAR(volume_of(filling.volume) / mesh_facts(plate).volume, 1 - filling.lost, 1e-9);
+  EXPECT_EQ(fill_within(plate, edge, 1, many).edge, edge);
 }
 
 TEST(Fill, PlacesUnitsAndThreadsDoNotMatter) {

@@ -1,6 +1,7 @@
 #pragma once
 // Polygons that do not fit together.
 
+#include <algorithm>
 #include <memory>
 
 #include "pelage/triangle_mesh.h"
@@ -41,6 +42,55 @@ inline TriangleMesh square_with_t_junctions() {
   add_square(mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 3);
   add_square(mesh, {1, 0, 0}, {1, 0, 0}, {0, 1, 0}, 4);
   return mesh;
+}
+
+/// A wall of rows x rows bricks of two triangles each, every other row begun by half a brick: corners of a row lie in
+/// the middle of the edges of the next. `side` of a brick.
+inline TriangleMesh brick_wall(int rows, double side) {
+  TriangleMesh mesh;
+  for (int row = 0; row < rows; ++row) {
+    const double shift = row % 2 == 0 ? 0 : side / 2;
+    for (int k = row % 2 == 0 ? 0 : -1; k < rows; ++k) {
+      const double begin = std::max(0.0, k * side + shift), end = std::min(rows * side, (k + 1) * side + shift);
+      add_square(mesh, {begin, row * side, 0}, {end - begin, 0, 0}, {0, side, 0});
+    }
+  }
+  return mesh;
+}
+
+/// A folding screen of square-cornered panels that share no vertex, each a unit wide and at a right angle to the next.
+inline TriangleMesh folding_screen(int panels, double height) {
+  TriangleMesh mesh;
+  Point begin{};
+  for (int k = 0; k < panels; ++k) {
+    const Point along = k % 2 == 0 ? Point{1, 0, 0} : Point{0, 1, 0};
+    add_square(mesh, begin, along, {0, 0, height});
+    for (std::size_t d = 0; d < 3; ++d) begin[d] += along[d];
+  }
+  return mesh;
+}
+
+/// The parts of a soup, so many triangles each, moved along x until none is near another: part k by k * `by`.
+inline TriangleMesh drawn_apart(TriangleMesh soup, std::size_t triangles_of_part, double by) {
+  std::vector<char> moved(soup.points.size(), 0);
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    for (const std::int32_t v : soup.triangles[t]) {
+      const auto vertex = static_cast<std::size_t>(v);
+      if (!moved[vertex]) soup.points[vertex][0] += by * static_cast<double>(t / triangles_of_part);
+      moved[vertex] = 1;
+    }
+  return soup;
+}
+
+/// Two unit spheres in a row along x, parts of the same number of triangles.
+inline TriangleMesh two_spheres(double distance, const TriangleMesh& sphere) {
+  TriangleMesh both;
+  for (const double x : {0.0, distance}) {
+    const auto first = static_cast<std::int32_t>(both.points.size());
+    for (const Point& p : sphere.points) both.points.push_back({p[0] + x, p[1], p[2]});
+    for (const Triangle& t : sphere.triangles) both.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  return both;
 }
 
 inline std::shared_ptr<const TriangleMesh> shared(TriangleMesh mesh) {

@@ -1,0 +1,93 @@
+#include "view_options.h"
+
+#include <map>
+
+#include "base/suggest.h"
+#include "look/ramp.h"
+
+namespace pelage {
+
+namespace {
+
+struct View {
+  double azimuth, elevation;
+};
+
+/// From a little above, so that the shape is seen to stand.
+const std::map<std::string, View>& views() {
+  static const std::map<std::string, View> all = {
+      {"front", {0, 8}}, {"side", {90, 8}}, {"top", {0, 80}}, {"three-quarter", {35, 14}}};
+  return all;
+}
+
+/// What `table` calls so.
+template <class Value>
+const Value& named(const std::map<std::string, Value>& table, const std::string& option, const std::string& kind,
+                   const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& [known, value] : table) names.push_back(known);
+  const auto found = table.find(name);
+  if (found == table.end()) throw CLI::ValidationError(option, unknown_name(kind, name, names));
+  return found->second;
+}
+
+void add_direction_options(CLI::App& app, ViewOptions& o) {
+  app.add_option("--azimuth", o.azimuth,
+                 "Where the camera stands around the up axis, degrees: 0 before the shape (+z, or -y where z points "
+                 "up), 90 at +x (default: 35)")
+      ->type_name("DEG");
+  app.add_option("--elevation", o.elevation, "And above the horizon, -89 to 89 degrees (default: 14)")
+      ->type_name("DEG");
+}
+
+}  // namespace
+
+void add_view_options(CLI::App& app, ViewOptions& o, const std::string& group) {
+  app.add_option_function<std::string>(
+         "--view",
+         [&o](const std::string& name) {
+           const View& view = named(views(), "--view", "view", name);
+           if (!o.azimuth) o.azimuth = view.azimuth;
+           if (!o.elevation) o.elevation = view.elevation;
+         },
+         "From where a picture is taken: front, side, top or three-quarter (default)")
+      ->type_name("NAME");
+  add_direction_options(app, o);
+  app.add_option("--exposure", o.exposure, "Brighter (or, below 0, darker) by so many stops, factors of two")
+      ->type_name("STOPS");
+  app.add_option_function<std::string>(
+         "--background",
+         [&o](const std::string& hex) {
+           try {
+             o.background = parse_hex_color(hex);
+           } catch (const Error& error) {
+             throw CLI::ValidationError("--background", error.what());
+           }
+         },
+         "Colour of the paper on which the shape stands (default: light grey)")
+      ->type_name("#RRGGBB");
+  app.add_option_function<std::string>(
+         "--up",
+         [&o](const std::string& name) {
+           static const std::map<std::string, UpAxis> axes = {{"y", UpAxis::y}, {"z", UpAxis::z}};
+           o.up = named(axes, "--up", "axis", name);
+         },
+         "Which axis of the shape points up, y or z, in pictures and in GLB, which is turned for it (default: what the "
+         "file says, otherwise y)")
+      ->type_name("AXIS");
+  for (const char* name : {"--view", "--azimuth", "--elevation", "--exposure", "--background", "--up"})
+    if (!group.empty()) app.get_option(name)->group(group);
+}
+
+PictureOptions picture_options(const ViewOptions& view, int size, UpAxis up) {
+  PictureOptions picture;
+  picture.width = picture.height = size;
+  picture.up = view.up.value_or(up);
+  picture.azimuth = view.azimuth.value_or(picture.azimuth);
+  picture.elevation = view.elevation.value_or(picture.elevation);
+  picture.background = view.background.value_or(picture.background);
+  picture.exposure = view.exposure;
+  return picture;
+}
+
+}  // namespace pelage
