@@ -19,6 +19,8 @@ struct CoatFields {
   std::shared_ptr<const NodeShape> nodes;      ///< of which `shape` is the mesh, and there is no hierarchy, and for
                                                ///< grids no points and no control points; else null
   std::vector<Point> points;                   ///< where its vertices are now
+  std::vector<Point> surface;                  ///< of a volume that has moved: where the vertices of the surface that
+                                               ///< it fills are now; else empty
   std::vector<Texture> textures;               ///< that layers may read
   std::shared_ptr<const Hierarchy> hierarchy;  ///< of the shape; the fields live on its finest level, or on a
   std::shared_ptr<const SimulationMesh> mesh;  ///< mesh of their own (else null)

@@ -1,10 +1,11 @@
 #include "look/solid_tessellation.h"
 
+#include <algorithm>
+
 #include "base/parallel.h"
 #include "shape/normals.h"
 #include "shape/split_edges.h"
 #include "shape/tet_places.h"
-#include "shape/vectors.h"
 
 namespace pelage {
 
@@ -14,10 +15,19 @@ namespace {
 constexpr double edges_per_wavelength = 24;
 constexpr std::size_t most_triangles = 1'500'000;
 
+/// Carried along while edges are split; no file has an attribute without a name.
+constexpr const char* moved_points = "";
+
+/// Where the volume was filled, with the points where they are now as an attribute if it has moved.
 TriangleMesh split_surface(const CoatFields& fields, const TessellationRequest& request) {
   const TriangleMesh& surface = *as<TetMesh>(fields.nodes)->surface;
   TriangleMesh mesh{surface.points, surface.triangles, kept_attributes(surface.attributes), surface.links,
                     surface.metres_per_unit};
+  if (!fields.surface.empty()) {
+    Attribute now{moved_points, 3, Domain::vertex, {}};
+    for (const Point& p : fields.surface) now.values.insert(now.values.end(), p.begin(), p.end());
+    mesh.attributes.push_back(std::move(now));
+  }
   if (!request.detail) split_long_edges(mesh, fields.wavelength / edges_per_wavelength, most_triangles);
   const int levels = levels_to_split(0, mesh.triangles.size(), fields.wavelength, request.detail);
   for (int level = 0; level < levels; ++level) split_edges(mesh, 0);
@@ -34,17 +44,6 @@ std::vector<double> values_at(const std::vector<TetPlace>& places, const std::ve
   return values;
 }
 
-/// What lies at these places of the volume goes where its nodes have gone.
-void move_along(const std::vector<TetPlace>& places, const std::vector<Point>& from, const std::vector<Point>& to,
-                std::vector<Point>& points) {
-  for (std::size_t v = 0; v < points.size(); ++v)
-    for (std::size_t k = 0; k < 4; ++k) {
-      const auto n = static_cast<std::size_t>(places[v].node[k]);
-      const Point way = difference(to[n], from[n]);
-      for (std::size_t d = 0; d < 3; ++d) points[v][d] += places[v].share[k] * way[d];
-    }
-}
-
 }  // namespace
 
 bool shows_surface(const std::shared_ptr<const NodeShape>& nodes) {
@@ -59,9 +58,11 @@ Tessellation tessellate_solid(const CoatFields& fields, const TessellationReques
   Tessellation t;
   CoatSamples& s = t.samples;
   for (const std::vector<double>& field : fields.coefficients) s.fields.push_back(values_at(places, field));
-  if (const std::vector<Point>& now = fields.space->control(); now != volume.points) {
+  if (const Attribute* now = surface.find(moved_points)) {
     s.drawn_at = surface.points;
-    move_along(places, volume.points, now, surface.points);
+    for (std::size_t v = 0; v < surface.points.size(); ++v)
+      std::copy_n(&now->values[3 * v], 3, surface.points[v].begin());
+    std::erase_if(surface.attributes, [](const Attribute& a) { return a.name == moved_points; });
   }
   t.triangles = std::move(surface.triangles);
   s.position = std::move(surface.points);

@@ -426,6 +426,7 @@ CoatFields Run::fields() const {
   f.mesh = world_.mesh();
   if (!as<Grid>(f.nodes)) {
     f.points = world_.points();
+    f.surface = world_.filled_surface();
     f.control = world_.control();
     f.initial_control = world_.initial_control();
   }

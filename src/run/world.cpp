@@ -113,6 +113,12 @@ const std::vector<Point>& World::points() const {
   return points_.empty() && program_ ? program_->shape->points : points_;
 }
 
+std::vector<Point> World::filled_surface() const {
+  const auto volume = program_ ? volume_of(*program_) : nullptr;
+  if (!volume || !volume->surface || initial_control_.empty()) return {};
+  return surface_->grown(inside_ ? surface_->faired() : volume->surface->points);
+}
+
 std::vector<Point> World::initial_positions(SampleRule rule) const {
   const auto space = initial_control_.empty() ? space_ : space_->moved(space_control(initial_control_));
   return space->geometry(rule, false).position;

@@ -41,6 +41,8 @@ class World {
   const MovingSurface* surface() const { return surface_.get(); }
   /// The vertices of the shape now [world units]; none without a mesh.
   const std::vector<Point>& points() const;
+  /// Of a volume that has moved, the vertices of the surface that it fills now; else empty.
+  std::vector<Point> filled_surface() const;
   /// Where samples are before the surface moves for the first time.
   std::vector<Point> initial_positions(SampleRule rule) const;
 

@@ -8,6 +8,7 @@
 #include "catalog/models.h"
 #include "discretise/tet_space.h"
 #include "fair/noisy.h"
+#include "look/dress.h"
 #include "pelage/error.h"
 #include "run/run.h"
 #include "shape/generators.h"
@@ -110,6 +111,8 @@ TEST(MovingVolume, TheSkinEndsOnTheFairedSurface) {
   const double noise = largest_distance(skin_mesh(volume).points, faired);
   while (run.world().surface()->moving() && !run.done()) run.advance(1);
   EXPECT_EQ(run.world().surface()->points(), faired.points);
+  const std::vector<Point> shown = dress(run.fields(), Look{}).points;
+  EXPECT_TRUE(std::equal(faired.points.begin(), faired.points.end(), shown.begin()));
   volume.points = run.fields().points;
   EXPECT_EQ(run.space().control(), volume.points);
   EXPECT_GT(noise, 0.02);
