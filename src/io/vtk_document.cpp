@@ -9,6 +9,7 @@
 #include "base/checked.h"
 #include "base/number.h"
 #include "io/text_scanner.h"
+#include "io/vtk_attributes.h"
 #include "io/zlib.h"
 #include "pelage/error.h"
 
@@ -307,6 +308,35 @@ std::vector<std::string> VtkDocument::strings(pugi::xml_node array) const {
   for (std::size_t begin = 0, end = 0; (end = bytes.find('\0', begin)) != std::string::npos; begin = end + 1)
     result.push_back(bytes.substr(begin, end - begin));
   return result;
+}
+
+std::vector<pugi::xml_node> VtkDocument::pieces(const char* kind, const std::string& read) const {
+  const std::string found = root_.attribute("type").as_string();
+  const pugi::xml_node data = root_.child(kind);
+  if (found != kind || !data)
+    fail(root_, "holds " + (found.empty() ? "no kind of data that is named" : found) + "; " + read);
+  std::vector<pugi::xml_node> pieces;
+  for (const pugi::xml_node piece : data.children("Piece")) pieces.push_back(piece);
+  if (pieces.empty()) fail(data, "has no Piece");
+  return pieces;
+}
+
+void VtkDocument::refuse_hidden(pugi::xml_node piece, std::size_t cells) const {
+  constexpr unsigned hidden = 32;
+  const pugi::xml_node array = piece.child("CellData").find_child_by_attribute("Name", vtk_ghosts);
+  if (!array) return;
+  for (const double flags : values(array, cells))
+    if ((saturated<unsigned>(flags) & hidden) != 0)
+      fail(array, "cells are hidden (vtkGhostType); extract the part that is meant, or unhide all");
+}
+
+std::vector<Point> VtkDocument::points(pugi::xml_node piece, std::size_t count) const {
+  const pugi::xml_node array = piece.child("Points").child("DataArray");
+  if (!array && count > 0) fail(piece, "the piece has no points");
+  const std::vector<double> x = count > 0 ? values(array, 3 * count) : std::vector<double>();
+  std::vector<Point> points;
+  for (std::size_t i = 0; i + 2 < x.size(); i += 3) points.push_back({x[i], x[i + 1], x[i + 2]});
+  return points;
 }
 
 }  // namespace pelage

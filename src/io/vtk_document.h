@@ -36,6 +36,15 @@ class VtkDocument {
   /// bytes. Fails unless they are `count` and are there: memory is taken for no more than the file holds.
   std::vector<double> values(pugi::xml_node array, std::size_t count) const;
 
+  /// The pieces of the data of a kind; fails where the file holds another, with what is read, and without any.
+  std::vector<pugi::xml_node> pieces(const char* kind, const std::string& read) const;
+
+  /// Fails where a piece of so many cells has hidden ones.
+  void refuse_hidden(pugi::xml_node piece, std::size_t cells) const;
+
+  /// So many points of a piece; fails where there are none of them.
+  std::vector<Point> points(pugi::xml_node piece, std::size_t count) const;
+
   /// The strings of an array, each of which a 0 ends.
   std::vector<std::string> strings(pugi::xml_node array) const;
 

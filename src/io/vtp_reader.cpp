@@ -17,9 +17,10 @@ class VtpReader {
   VtpReader(std::string_view bytes, const std::string& path) : document_(bytes, path) {}
 
   RawShape read() {
-    find_pieces();
+    pieces_ = document_.pieces("PolyData", "surfaces and clouds are read from PolyData (.vtp), in one file");
+    data_ = document_.root().child("PolyData");
     for (const pugi::xml_node piece : pieces_) {
-      refuse_hidden(piece);
+      document_.refuse_hidden(piece, cells_of(piece));
       read_polygons(piece);  // counts from the points before
       read_points(piece);
     }
@@ -29,16 +30,6 @@ class VtpReader {
   }
 
  private:
-  void find_pieces() {
-    const std::string kind = document_.root().attribute("type").as_string();
-    data_ = document_.root().child("PolyData");
-    if (kind != "PolyData" || !data_)
-      document_.fail(document_.root(), "holds " + (kind.empty() ? "no kind of data that is named" : kind) +
-                                           "; surfaces and clouds are read from PolyData (.vtp), in one file");
-    for (const pugi::xml_node piece : data_.children("Piece")) pieces_.push_back(piece);
-    if (pieces_.empty()) document_.fail(data_, "has no Piece");
-  }
-
   std::size_t count(pugi::xml_node piece, const char* attribute) const {
     return static_cast<std::size_t>(document_.whole(piece, attribute, 0, 0, 2147483647));
   }
@@ -52,23 +43,11 @@ class VtpReader {
     return cells_before_polygons(piece) + polygons_of(piece) + count(piece, "NumberOfStrips");
   }
 
-  void refuse_hidden(pugi::xml_node piece) const {
-    constexpr unsigned hidden = 32;
-    const pugi::xml_node array = piece.child("CellData").find_child_by_attribute("Name", vtk_ghosts);
-    if (!array) return;
-    for (const double flags : document_.values(array, cells_of(piece)))
-      if ((saturated<unsigned>(flags) & hidden) != 0)
-        document_.fail(array, "cells are hidden (vtkGhostType); extract the part that is meant, or unhide all");
-  }
-
   void read_points(pugi::xml_node piece) {
-    const std::size_t n = points_of(piece);
-    const pugi::xml_node array = piece.child("Points").child("DataArray");
-    if (!array && n > 0) document_.fail(piece, "the piece has no points");
-    if (VtkDocument::type_of(array) == NumberType::float64) shape_.mesh.position_type = NumberType::float64;
-    const std::vector<double> values = n > 0 ? document_.values(array, 3 * n) : std::vector<double>();
-    for (std::size_t i = 0; i + 2 < values.size(); i += 3)
-      shape_.mesh.points.push_back({values[i], values[i + 1], values[i + 2]});
+    const std::vector<Point> points = document_.points(piece, points_of(piece));
+    if (VtkDocument::type_of(piece.child("Points").child("DataArray")) == NumberType::float64)
+      shape_.mesh.position_type = NumberType::float64;
+    shape_.mesh.points.insert(shape_.mesh.points.end(), points.begin(), points.end());
     checked_count<std::int32_t>(shape_.mesh.points.size(), "points");
   }
 

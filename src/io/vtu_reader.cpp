@@ -86,9 +86,10 @@ class VtuReader {
       : document_(bytes, path), findings_(findings) {}
 
   SolidCells read() {
-    find_pieces();
+    pieces_ = document_.pieces("UnstructuredGrid", "volumes are read from UnstructuredGrid (.vtu), in one file");
+    data_ = document_.root().child("UnstructuredGrid");
     for (const pugi::xml_node piece : pieces_) {
-      refuse_hidden(piece);
+      document_.refuse_hidden(piece, cells_of(piece));
       read_points(piece);
       read_cells(piece);
     }
@@ -99,16 +100,6 @@ class VtuReader {
   }
 
  private:
-  void find_pieces() {
-    const std::string kind = document_.root().attribute("type").as_string();
-    data_ = document_.root().child("UnstructuredGrid");
-    if (kind != "UnstructuredGrid" || !data_)
-      document_.fail(document_.root(), "holds " + (kind.empty() ? "no kind of data that is named" : kind) +
-                                           "; volumes are read from UnstructuredGrid (.vtu), in one file");
-    for (const pugi::xml_node piece : data_.children("Piece")) pieces_.push_back(piece);
-    if (pieces_.empty()) document_.fail(data_, "has no Piece");
-  }
-
   std::size_t count(pugi::xml_node piece, const char* attribute) const {
     if (!piece.attribute(attribute)) document_.fail(piece, std::string("the piece has no ") + attribute);
     return static_cast<std::size_t>(document_.whole(piece, attribute, 0, 0, 2147483647));
@@ -116,23 +107,10 @@ class VtuReader {
   std::size_t points_of(pugi::xml_node piece) const { return count(piece, "NumberOfPoints"); }
   std::size_t cells_of(pugi::xml_node piece) const { return count(piece, "NumberOfCells"); }
 
-  void refuse_hidden(pugi::xml_node piece) const {
-    constexpr unsigned hidden = 32;
-    const pugi::xml_node array = piece.child("CellData").find_child_by_attribute("Name", vtk_ghosts);
-    if (!array) return;
-    for (const double flags : document_.values(array, cells_of(piece)))
-      if ((saturated<unsigned>(flags) & hidden) != 0)
-        document_.fail(array, "cells are hidden (vtkGhostType); extract the part that is meant, or unhide all");
-  }
-
   void read_points(pugi::xml_node piece) {
     first_point_.push_back(result_.points.size());
-    const std::size_t n = points_of(piece);
-    const pugi::xml_node array = piece.child("Points").child("DataArray");
-    if (!array && n > 0) document_.fail(piece, "the piece has no points");
-    const std::vector<double> values = n > 0 ? document_.values(array, 3 * n) : std::vector<double>();
-    for (std::size_t i = 0; i + 2 < values.size(); i += 3)
-      result_.points.push_back({values[i], values[i + 1], values[i + 2]});
+    const std::vector<Point> points = document_.points(piece, points_of(piece));
+    result_.points.insert(result_.points.end(), points.begin(), points.end());
     checked_count<std::int32_t>(result_.points.size(), "nodes");
   }
 
