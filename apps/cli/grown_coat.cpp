@@ -1,0 +1,164 @@
+#include "grown_coat.h"
+
+#include <algorithm>
+
+#include "look/coat_sampler.h"
+#include "look/dress.h"
+#include "look/sheet_image.h"
+#include "look/solid_tessellation.h"
+#include "look/tessellation.h"
+#include "node_outputs.h"
+#include "shape/triangulate.h"
+#include "text.h"
+
+namespace pelage {
+
+namespace {
+
+int texture_size(const GrowOptions& options) { return options.bake.value_or(default_texture); }
+
+/// Built-in shapes are of no other form.
+SourceShape form_of_shape(const ShapeFile& file, const TriangleMesh& shape) {
+  if (file.source) return *file.source;
+  PolygonMesh polygons = polygons_of(shape);
+  std::vector<std::int32_t> vertex(polygons.corners.begin(), polygons.corners.end());
+  return {std::move(polygons), std::move(vertex)};
+}
+
+/// The file's own mesh and attributes with what the coat adds to them.
+PolygonMesh kept_shape(SourceShape source, const TriangleMesh& coat, const Paint& paint) {
+  rename_input(source.polygons.attributes, paint);
+  TriangleMesh added = coat;
+  std::erase_if(added.attributes, [&](const Attribute& a) { return source.polygons.find(a.name) != nullptr; });
+  return as_in_file(source, added);
+}
+
+/// Of patches: whether any output shows images of them; checks that these have room.
+bool wants_patches(const GrowOptions& options, const ShapeFile& file) {
+  const Atlas* atlas = as<Atlas>(file.nodes);
+  const bool wanted = wants_images(options) || !options.patch_images.empty() ||
+                      std::ranges::any_of(options.outputs, [](const std::string& o) { return is_node_output(o); });
+  if (!atlas || !wanted) return false;
+  lay_out(*atlas, texture_size(options));
+  return true;
+}
+
+/// The file's own mesh as it is cut into triangles; where repairs have changed those, the one of the run.
+TriangleMesh shaded_mesh(const PolygonMesh& textured, const TriangleMesh& shape) {
+  std::vector<Finding> ignored;
+  TriangleMesh mesh = triangulate(textured, ignored).mesh;
+  return mesh.triangles.size() == shape.triangles.size() ? mesh : shape;
+}
+
+/// The coat on the surface that it has grown on, as images on the file's own mesh.
+void bake_surface(const CoatFields& fields, const Look& look, const UvLayout& layout, const ShapeFile& file,
+                  Grown& grown, GrowReport& report) {
+  const Cells* cells = as<Cells>(fields.nodes);
+  const TriangleMesh& shape = cells ? *cells->on : *grown.shape;
+  Look as_given = look;
+  as_given.keep_shape = true;
+  grown.textured = kept_shape(form_of_shape(file, shape), dress(fields, as_given), grown.paint);
+  std::optional<ShadingFrames> frames;
+  if (grown.paint.channels.contains(Channel::height)) frames.emplace(shaded_mesh(*grown.textured, shape));
+  Look smooth = look;
+  smooth.keep_shape = false;
+  const Tessellation t = tessellate(fields, tessellation_request(smooth, grown.paint));
+  BakedCoat baked = bake(CoatSampler(fields, t, grown.paint), make_palette(grown.paint, t.samples, fields.uniform),
+                         layout, frames ? &*frames : nullptr);
+  for (const std::string& line : lines_of({baked.hidden}, shape, file.source.get())) report.warning(line);
+  grown.textures = textures_of(std::move(baked), layout);
+}
+
+void require_sheet(const ShapeFile& file) {
+  if (const Grid* grid = as<Grid>(file.nodes); !grid || grid->dimension() == 3)
+    throw Error(Fault::usage, "--height-map is for sheets of grids, a pixel for each node; a block has no height");
+}
+
+/// What the look says of the height, or else the shown species.
+void write_relief(const Grid& sheet, const CoatFields& fields, const Look& look, const std::string& path,
+                  GrowReport& report) {
+  const Paint paint = resolve_paint(look, fields.species);
+  if (!paint.channels.contains(Channel::height)) {
+    save_height_map(sheet, fields.coefficients[paint.shown], path);
+    return report.file(path);
+  }
+  const CoatSamples nodes = samples_at_nodes(fields, tessellation_request(look, paint));
+  const std::vector<double> height = channel_values(nodes, paint, Channel::height);
+  save_height_map(sheet, height, path);
+  const auto [low, high] = std::ranges::minmax(height);
+  report.file(path, "black is " + number(low) + " and white " + number(high) + " above the sheet");
+}
+
+TriangleMesh dressed(const CoatFields& fields, const Look& look, const Paint& paint, GrowReport& report) {
+  Tessellation t = tessellate(fields, tessellation_request(look, paint));
+  for (const std::string& line : clamped_channels(t.samples, paint)) report.warning(line);
+  return dress(std::move(t), paint, fields.uniform);
+}
+
+/// Whether a coat on a sheet is asked for as nothing but pixels.
+bool only_images(const GrowOptions& options, const Look& look) {
+  return options.panels.empty() && !look.keep_shape &&
+         std::ranges::all_of(options.outputs, [](const auto& path) { return lower_extension(path) == ".png"; });
+}
+
+void carve_body(const CoatFields& fields, const Look& look, const GrowOptions& options, Carving carving, Grown& grown,
+                GrowReport& report) {
+  if (const std::string other = fit_level(carving, fields); !other.empty()) report.warning(other);
+  for (const std::string& line :
+       clamped_channels(samples_at_nodes(fields, tessellation_request(look, grown.paint)), grown.paint))
+    report.warning(line);
+  grown.coat = dress_body(fields, look, carving);
+  if (std::ranges::any_of(options.outputs, is_node_output)) grown.at_nodes = dress_nodes(fields, look);
+}
+
+void add_patches(const CoatFields& fields, const Look& look, const GrowOptions& options, Grown& grown) {
+  grown.patches = patch_texture(fields, look, texture_size(options));
+  if (!wants_images(options)) return;
+  grown.coat = with_uv(std::move(grown.coat), *grown.patches);
+  grown.textures = textures_of(*grown.patches);
+}
+
+}  // namespace
+
+std::optional<UvLayout> layout_of(const GrowOptions& options, const ShapeFile& file, GrowReport& report) {
+  if (!wants_images(options) || as<Atlas>(file.nodes)) return {};
+  if (file.nodes && !as<Cells>(file.nodes))
+    throw Error(Fault::usage, "--bake and --maps are for surfaces with uv and for patches, and the shape is neither");
+  std::optional<UvLayout> layout = uv_layout(file.mesh, texture_size(options));
+  for (const std::string& line : lines_of(layout->notes(), file.mesh, file.source.get())) report.warning(line);
+  return layout;
+}
+
+void check_coat(const CoatRequest& request) {
+  wants_patches(request.options, request.file);
+  if (!request.options.height_map.empty()) require_sheet(request.file);
+}
+
+Grown grown_coat(const CoatFields& fields, const std::shared_ptr<const TriangleMesh>& shape, const CoatRequest& request,
+                 const Progress& progress, GrowReport& report) {
+  const auto& [options, look, file, layout, carving] = request;
+  Grown grown{{}, {}, {}, shape, resolve_paint(look, fields.species), fields.nodes, {}, {}, {}};
+  progress("colouring", 0);
+  if (!options.height_map.empty()) write_relief(*as<Grid>(file.nodes), fields, look, options.height_map, report);
+  if (only_images(options, look) && is_bare_sheet(fields)) {
+    grown.image = sheet_image(fields, look);
+    return grown;
+  }
+  if (is_volume(fields.nodes.get())) {
+    carve_body(fields, look, options, carving, grown, report);
+    return grown;
+  }
+  grown.coat = dressed(fields, look, grown.paint, report);
+  if (wants_patches(options, file)) add_patches(fields, look, options, grown);
+  if (layout) {
+    progress("baking", 0);
+    bake_surface(fields, look, *layout, file, grown, report);
+  }
+  return grown;
+}
+
+PolygonMesh coat_in_file(const Grown& grown, const ShapeFile& file) {
+  return kept_shape(form_of_shape(file, *grown.shape), grown.coat, grown.paint);
+}
+
+}  // namespace pelage
