@@ -40,7 +40,7 @@ done <<<"$lines"
 lines=$(sed -n '/^## From C++/,/^## When/s/^    \(.*;\)$/\1/p' "$source/README.md")
 [ -n "$lines" ] || { echo "FAILED: the README's lines of C++ were not found"; exit 1; }
 while read -r line; do
-  cat "$source"/examples/*.cpp | grep -qF "$line" || { echo "FAILED: no example has: $line"; failures=$((failures + 1)); }
+  grep -qF -- "$line" "$source"/examples/*.cpp || { echo "FAILED: no example has: $line"; failures=$((failures + 1)); }
 done <<<"$lines"
 echo "$failures failures"
 [ "$failures" -eq 0 ]
