@@ -229,6 +229,14 @@ void add_look_options(CLI::App& app, GrowOptions& o) {
       ->type_name("N")
       ->check(whole_number(0, most_detail))
       ->group(group);
+  app.add_option(
+         "--triangles", o.triangles,
+         "At most so many triangles: more where shape and colour change, fewer elsewhere; each vertex is one of "
+         "the finer coat")
+      ->type_name("N")
+      ->check(whole_number(4, 30'000'000))
+      ->group(group)
+      ->excludes("--keep-shape");
 }
 
 void add_file_options(CLI::App& app, GrowOptions& o, const std::string& group) {
@@ -570,6 +578,11 @@ void check_images(const GrowOptions& options, const std::string& shape) {
 }  // namespace
 
 void check_outputs(const GrowOptions& options, const std::string& shape) {
+  if (options.triangles && (options.bake || names_grid(shape) || names_atlas(shape)))
+    throw Error(Fault::usage,
+                options.bake
+                    ? "--triangles is for colours at vertices; with --bake the coat is an image on the shape as it is"
+                    : "--triangles is for surfaces; the nodes of this shape stay where they are");
   for (const std::string& output : options.outputs) {
     if (is_node_output(output))
       check_folder(output);

@@ -25,7 +25,7 @@ struct GrowOptions {
   std::optional<std::int64_t> steps, every;
   std::optional<std::uint64_t> seed;
   std::optional<int> detail, threads;
-  std::optional<std::int64_t> cells;
+  std::optional<std::int64_t> cells, triangles;
   std::string fair;  ///< method of fairing, or empty
   std::optional<std::string> motion;
   bool profile = false, solid = false, nested = false;

@@ -8,6 +8,7 @@
 #include "look/solid_tessellation.h"
 #include "look/tessellation.h"
 #include "node_outputs.h"
+#include "shape/simplify.h"
 #include "shape/triangulate.h"
 #include "text.h"
 
@@ -111,6 +112,17 @@ void carve_body(const CoatFields& fields, const Look& look, const GrowOptions& o
   if (std::ranges::any_of(options.outputs, is_node_output)) grown.at_nodes = dress_nodes(fields, look);
 }
 
+/// To the number of triangles that is asked for, where that is fewer.
+void reduce(TriangleMesh& coat, const GrowOptions& options, GrowReport& report) {
+  if (!options.triangles || coat.triangles.empty()) return;
+  const auto asked = static_cast<std::size_t>(*options.triangles), before = coat.triangles.size();
+  if (before <= asked) return;
+  coat = simplify(coat, asked);
+  if (coat.triangles.size() > asked)
+    report.warning("--triangles " + std::to_string(asked) + ": " + std::to_string(coat.triangles.size()) +
+                   " are left; the kind of the surface, its seams and the borders of materials need them");
+}
+
 void add_patches(const CoatFields& fields, const Look& look, const GrowOptions& options, Grown& grown) {
   grown.patches = patch_texture(fields, look, texture_size(options));
   if (!wants_images(options)) return;
@@ -146,9 +158,11 @@ Grown grown_coat(const CoatFields& fields, const std::shared_ptr<const TriangleM
   }
   if (is_volume(fields.nodes.get())) {
     carve_body(fields, look, options, carving, grown, report);
+    reduce(grown.coat, options, report);
     return grown;
   }
   grown.coat = dressed(fields, look, grown.paint, report);
+  reduce(grown.coat, options, report);
   if (wants_patches(options, file)) add_patches(fields, look, options, grown);
   if (layout) {
     progress("baking", 0);
