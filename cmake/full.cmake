@@ -13,7 +13,7 @@ find_file(DEJAVU_SANS DejaVuSans.ttf PATHS /usr/share/fonts PATH_SUFFIXES truety
 find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
 find_library(TINYGLTF_LIBRARY tinygltf REQUIRED)
 option(PELAGE_DRACO "Read glTF that Draco compressed, where its library is found" ON)
-option(PELAGE_MESHOPTIMIZER "Read glTF that meshoptimizer compressed, where its library is found" ON)
+option(PELAGE_MESHOPTIMIZER "Read and write glTF that meshoptimizer compresses, where its library is found" ON)
 if(PELAGE_DRACO)
   find_package(draco QUIET CONFIG)
 endif()
@@ -36,7 +36,7 @@ target_link_libraries(pelage_io PUBLIC pelage_core PRIVATE tomlplusplus::tomlplu
 foreach(packer draco meshoptimizer)  # optional: without them compressed files are refused by name
   if(TARGET ${packer}::${packer})
     string(TOUPPER PELAGE_HAS_${packer} found)
-    set_source_files_properties(src/io/gltf_${packer}.cpp PROPERTIES COMPILE_DEFINITIONS ${found})
+    set_property(SOURCE src/io/gltf_${packer}.cpp src/io/gltf_compressor.cpp APPEND PROPERTY COMPILE_DEFINITIONS ${found})
     target_link_libraries(pelage_io PRIVATE $<BUILD_INTERFACE:${packer}::${packer}> $<INSTALL_INTERFACE:${packer}>)
   endif()
 endforeach()

@@ -26,7 +26,7 @@ OUTSIDE = {"tbb/": ["src/base/parallel.cpp"], "toml++/": ["src/recipe/document.c
            "pugixml.hpp": ["src/io/vtk_document."], "stb_truetype.h": ["src/look/text.cpp"], "embree3/": ["src/render/"],
            "unistd.h": ["src/io/", "apps/cli/"],
            "sys/": ["apps/cli/"], "CLI/": ["apps/cli/"], "nlohmann/": ["apps/cli/", "src/io/gltf_"],
-           "draco/": ["src/io/gltf_draco.cpp"], "meshoptimizer.h": ["src/io/gltf_meshoptimizer.cpp"]}
+           "draco/": ["src/io/gltf_draco.cpp"], "meshoptimizer.h": ["src/io/gltf_meshoptimizer.cpp", "src/io/gltf_compressor.cpp"]}
 
 
 def layer_of(path):

@@ -171,7 +171,9 @@ void grow(const GrowOptions& options) {
     return std::make_unique<Run>(bind_plan(planned, file, std::move(images)), progress);
   });
   const Grown grown = grow_coat(options, std::move(run), request, progress, report);
-  write_files(options, grown, file, recipe.look.keep_shape, {object_name(file, recipe.shape), up}, progress, report);
+  SaveOptions form{object_name(file, recipe.shape), up};
+  form.compress = options.compress;
+  write_files(options, grown, file, recipe.look.keep_shape, form, progress, report);
   write_pictures(options, recipe, grown, file, picture_of(options, *planned.quality, up), progress, report);
   if (options.profile) report.profile(profile);
   report.end(total.seconds());

@@ -29,7 +29,8 @@ struct GrowOptions {
   std::string fair;  ///< method of fairing, or empty
   std::optional<std::string> motion;
   bool profile = false, solid = false, nested = false;
-  bool interpolate = false, invert = false, keep_shape = false, flat = false, displace = false, no_fields = false;
+  bool interpolate = false, invert = false, keep_shape = false, flat = false, displace = false, no_fields = false,
+       compress = false;
 
   std::vector<std::string> outputs;
   std::string picture, panels, plot, height_map, patch_images, checkpoint, resume;

@@ -60,6 +60,8 @@ struct SaveOptions {
   /// label of "material", or a single one for all of the mesh; those of "uv" beyond the image see it repeated.
   std::vector<TextureMaps> textures = {};
   bool repeat = false;  ///< else they see its border
+  /// Of GLB: quantised and packed (KHR_mesh_quantization, EXT_meshopt_compression), which not all programs read.
+  bool compress = false;
 };
 
 /// Writes a mesh as .glb, .ply, .obj, .vtp, .stl or .off, with all its attributes that the format can hold. Every

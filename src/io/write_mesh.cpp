@@ -14,6 +14,7 @@
 #include "io/atomic_file.h"
 #include "io/glb_writer.h"
 #include "io/gltf_coat.h"
+#include "io/gltf_compressor.h"
 #include "io/obj_writer.h"
 #include "io/off_writer.h"
 #include "io/ply_writer.h"
@@ -80,7 +81,8 @@ Keeping glb_keeps(const Attribute& a) {
 Keeping vtp_keeps(const Attribute& a) { return ply_keeps(a); }
 
 std::string encode_named_glb(const TriangleMesh& mesh, const SaveOptions& options) {
-  return encode_glb(mesh, {options.name, options.up, options.textures, options.repeat});
+  const std::string glb = encode_glb(mesh, {options.name, options.up, options.textures, options.repeat});
+  return options.compress ? compress_glb(glb) : glb;
 }
 
 TriangleMesh triangles_of(const PolygonMesh& mesh) {

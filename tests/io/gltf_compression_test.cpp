@@ -3,11 +3,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
+#include <set>
 #include <string>
+#include <tuple>
 
 #include "io/glb_builder.h"
 #include "io/gltf_reader.h"
 #include "io/read_text.h"
+#include "pelage/io.h"
+#include "shape/generators.h"
 
 #ifdef PELAGE_HAS_DRACO
 #include <draco/attributes/geometry_attribute.h>
@@ -176,6 +182,59 @@ std::string packed(Encode&& encode) {
   std::string bytes(10000, '\0');
   bytes.resize(encode(reinterpret_cast<unsigned char*>(bytes.data()), bytes.size()));
   return bytes;
+}
+
+/// What is written small reads as the mesh that it was, to the digits that are promised; vertices by their numbers.
+TEST(GltfMeshopt, WrittenFilesReadAsTheyWere) {
+  TriangleMesh mesh = builtin_shape("builtin:torus?n=576");
+  const double metres = 0.001;
+  mesh.metres_per_unit = metres;
+  Attribute number{"number", 1, Domain::vertex, {}}, color{"color", 3, Domain::vertex, {}},
+      normal{"normal", 3, Domain::vertex, {}}, material{"material", 1, Domain::face, {}, NumberType::int32, {"a", "b"}};
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    const double x = static_cast<double>(v) / static_cast<double>(mesh.points.size());
+    number.values.push_back(static_cast<double>(v));
+    color.values.insert(color.values.end(), {x, x * x, 1 - x});
+    const double angle = 7 * x;
+    normal.values.insert(normal.values.end(), {std::cos(angle), 0.6 * std::sin(angle), -0.8 * std::sin(angle)});
+  }
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) material.values.push_back(f % 3 == 0 ? 1 : 0);
+  for (Attribute* a : {&number, &color, &normal, &material}) mesh.set(*a);
+  const std::string plain = mesh_bytes(mesh, ".glb"), small = mesh_bytes(mesh, ".glb", {.compress = true});
+  EXPECT_LT(2 * small.size(), plain.size());
+
+  const PolygonMesh back = read(small).mesh;
+  ASSERT_GE(back.points.size(), mesh.points.size());  // parts are read with vertices of their own
+  ASSERT_EQ(back.face_count(), mesh.triangles.size());
+  const Attribute &numbers = *back.find("number"), &colors = *back.find("color"), &normals = *back.find("normal");
+  double size = 0;
+  for (const Point& p : mesh.points)
+    size = std::max({size, 2 * std::abs(p[0]), 2 * std::abs(p[1]), 2 * std::abs(p[2])});
+  for (std::size_t v = 0; v < back.points.size(); ++v) {
+    const auto was = static_cast<std::size_t>(std::lround(numbers.values[v]));
+    ASSERT_LT(was, mesh.points.size());
+    double cosine = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(back.points[v][k] * *back.metres_per_unit, metres * mesh.points[was][k], metres * size / 65535);
+      EXPECT_NEAR(colors.values[3 * v + k], color.values[3 * was + k], 0.6 / 65535);
+      cosine += normals.values[3 * v + k] * normal.values[3 * was + k];
+    }
+    EXPECT_GT(cosine, std::cos(0.03 * std::numbers::pi / 180));
+  }
+  std::set<std::array<long, 4>> faces_before, faces_after;
+  const auto face = [](long a, long b, long c, double m) {
+    while (a > b || a > c) std::tie(a, b, c) = std::tuple{b, c, a};
+    return std::array<long, 4>{a, b, c, std::lround(m)};
+  };
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    faces_before.insert(face(t[0], t[1], t[2], material.values[f]));
+    std::array<long, 3> n;
+    for (std::size_t k = 0; k < 3; ++k)
+      n[k] = std::lround(numbers.values[static_cast<std::size_t>(back.corners[3 * f + k])]);
+    faces_after.insert(face(n[0], n[1], n[2], back.find("material")->values[f]));
+  }
+  EXPECT_EQ(faces_before, faces_after);
 }
 
 TEST(GltfMeshopt, IsUnpacked) {
