@@ -33,7 +33,9 @@ struct CellsCommand {
   bool json = false, quiet = false;
 };
 
-void report(const CellsCommand& command, const Cells& cells, const PolygonMesh& outlines, std::size_t outliers) {
+void report(const CellsCommand& command, const Cells& cells, const PolygonMesh& outlines, const CellMaker& maker) {
+  const std::size_t outliers = maker.outliers();
+  const double covered = maker.covered_share();
   const std::vector<double>&sides = outlines.find("sides")->values, &area = outlines.find("area")->values;
   double sum = 0;
   for (const double a : area) sum += a;
@@ -51,9 +53,12 @@ void report(const CellsCommand& command, const Cells& cells, const PolygonMesh& 
                        {"with_six_sides", six},
                        {"radius", json_number(cells.radius)},
                        {"outliers", outliers},
+                       {"share_inside_other_parts", json_number(covered)},
                        {"files", files}});
   if (command.quiet) return;
   if (outliers > 0) std::printf("noted     %zu points are far from all others: no cells there\n", outliers);
+  if (covered > 0)
+    std::printf("noted     %s %% of the area lies inside other parts: no cells there\n", brief(100 * covered).c_str());
   std::printf("cells     %zu, %s world units apart\n", cells.nodes(), brief(cells.radius / 2).c_str());
   std::printf("area      %s in all; cells from %s to %s of the mean\n", brief(sum).c_str(),
               brief(smallest / mean).c_str(), brief(largest / mean).c_str());
@@ -74,15 +79,14 @@ void run_cells(const CellsCommand& command) {
     throw Error(Fault::usage, command.shape + " has nodes of its own; cells are for polygons and clouds of points");
   if (!command.json && !command.quiet) print_findings(file.findings);
   orient_soup(file.mesh);
+  const PictureOptions picture =
+      picture_options(command.view, command.size, file.up, command.picture.empty() ? TriangleMesh{} : file.mesh);
   const CellMaker maker(std::make_shared<const TriangleMesh>(std::move(file.mesh)));
   const Cells cells = maker.make(command.count);
   const PolygonMesh outlines = outlines_of(cells);
   save_all(outlines, command.outputs, {});
-  if (!command.picture.empty()) {
-    const PictureOptions options = picture_options(command.view, command.size, file.up);
-    write_png(render(cells_to_see(cells), options), command.picture);
-  }
-  report(command, cells, outlines, maker.outliers());
+  if (!command.picture.empty()) write_png(render(cells_to_see(cells), picture), command.picture);
+  report(command, cells, outlines, maker);
 }
 
 }  // namespace

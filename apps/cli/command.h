@@ -31,6 +31,8 @@ Command add_grid(CLI::App& parent);
 Command add_cells(CLI::App& parent);
 Command add_measure(CLI::App& parent);
 Command add_recipes(CLI::App& parent);
+Command add_sheet(CLI::App& parent);
+Command add_render(CLI::App& parent);
 Command add_unwrap(CLI::App& parent);
 Command add_verify(CLI::App& parent);
 

@@ -111,7 +111,7 @@ TriangleMesh with_field(TriangleMesh mesh, const Connection& c, const DirectionF
 
 void draw(const FieldCommand& o, const TriangleMesh& mesh, UpAxis up, const Connection& c, const DirectionField& field,
           const Progress& progress) {
-  const PictureOptions options = picture_options(o.view, o.size, up);
+  const PictureOptions options = picture_options(o.view, o.size, up, mesh);
   write_png(render(hatched(mesh, c, field, {o.spacing * box_of(mesh.points).diagonal()}), options, progress),
             o.picture);
 }

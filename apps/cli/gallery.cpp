@@ -18,13 +18,10 @@
 #include "interrupt.h"
 #include "io/atomic_file.h"
 #include "look/caption.h"
-#include "look/dress.h"
-#include "node_outputs.h"
 #include "pelage/io.h"
-#include "pelage/render.h"
 #include "progress_bar.h"
-#include "run/run.h"
 #include "text.h"
+#include "tile_picture.h"
 #include "usage.h"
 #include "view_options.h"
 
@@ -33,9 +30,6 @@ namespace pelage {
 namespace {
 
 constexpr int smallest_picture = 64, largest_picture = 4096;
-constexpr std::int64_t steps_per_slice = 20;
-/// Share of a picture's time that its run takes, the rest being drawing.
-constexpr double share_of_run = 0.9;
 
 struct GalleryOptions {
   std::string folder;
@@ -75,28 +69,13 @@ Program program_of(const Recipe& recipe, const GalleryShape& shape) {
   return bind_plan(plan(recipe), file, read_images(recipe.textures));
 }
 
-/// One recipe on one shape; an empty image when `report` asks to stop.
-Image make_picture(const Job& job, const GalleryOptions& options, const std::function<bool(double)>& report) {
-  const Progress progress = [&](std::string_view, double) { return report(0); };
-  const Recipe& recipe = job.subject->recipe;
-  Run run(program_of(recipe, *job.shape), progress);
-  while (!run.done()) {
-    if (!report(share_of_run * run.fraction())) return {};
-    run.advance(steps_per_slice);
-  }
-  if (run.summary().status == RunStatus::failed) throw Error(Fault::numerics, run.summary().message);
-  if (run.uniform()) job.picture->uniform = run.why_uniform();
-  const TriangleMesh coat = dress(run.fields(), recipe.look);
-  if (const Grid* grid = as<Grid>(job.shape->file.nodes); grid && is_flat(*grid))
-    return picture_of_nodes(*grid, coat, {1, 1}, options.picture_size);
-  return render(coat, picture_options(options.view, options.picture_size, job.shape->file.up));
-}
-
 void do_job(const Job& job, const GalleryOptions& options, const std::function<bool(double)>& report) {
   try {
-    const Image image = make_picture(job, options, report);
-    if (image.rgb.empty()) return;
-    write_png(with_caption(image, short_name(*job.subject) + ", " + job.shape->name, job.subject->title),
+    const TilePicture tile =
+        tile_picture(job.subject->recipe, job.shape->file, options.view, options.picture_size, report);
+    if (tile.image.rgb.empty()) return;
+    job.picture->uniform = tile.uniform;
+    write_png(with_caption(tile.image, short_name(*job.subject) + ", " + job.shape->name, job.subject->title),
               (std::filesystem::path(options.folder) / job.picture->file).string());
     job.picture->made = true;
     report(1);

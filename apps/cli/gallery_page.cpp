@@ -1,5 +1,7 @@
 #include "gallery_page.h"
 
+#include "io/xml_text.h"
+
 namespace pelage {
 
 namespace {
@@ -29,23 +31,6 @@ img { width: 100%; height: auto; display: block; border: 1px solid #ddd; }
 <body>
 )";
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
-
 /// A name that the fragment of an address may hold.
 std::string anchor(const std::string& name) {
   std::string result;
@@ -55,21 +40,21 @@ std::string anchor(const std::string& name) {
 
 std::string paragraph(const std::string& text, const std::string& style = "") {
   if (text.empty()) return "";
-  return "<p" + (style.empty() ? "" : " class=\"" + style + "\"") + ">" + escaped(text) + "</p>\n";
+  return "<p" + (style.empty() ? "" : " class=\"" + style + "\"") + ">" + escape_xml(text) + "</p>\n";
 }
 
 std::string figure(const GalleryPicture& picture, int size) {
   if (!picture.failure.empty()) return paragraph(picture.caption + ": " + picture.failure, "failure");
-  const std::string file = escaped(picture.file);
+  const std::string file = escape_xml(picture.file);
   return "<figure><a href=\"" + file + "\"><img src=\"" + file + "\" width=\"" + std::to_string(size) +
-         "\" loading=\"lazy\" alt=\"" + escaped(picture.caption) + "\"></a>" +
+         "\" loading=\"lazy\" alt=\"" + escape_xml(picture.caption) + "\"></a>" +
          (picture.uniform.empty() ? "" : paragraph("uniform: " + picture.uniform, "failure")) + "</figure>\n";
 }
 
 std::string section(const GalleryEntry& entry, int size) {
-  std::string text = "<section id=\"" + anchor(entry.name) + "\">\n<h2>" + escaped(entry.title) + " <code>" +
-                     escaped(entry.name) + "</code></h2>\n" + paragraph(entry.summary) + paragraph(entry.cite, "cite") +
-                     "<div class=\"pictures\">\n";
+  std::string text = "<section id=\"" + anchor(entry.name) + "\">\n<h2>" + escape_xml(entry.title) + " <code>" +
+                     escape_xml(entry.name) + "</code></h2>\n" + paragraph(entry.summary) +
+                     paragraph(entry.cite, "cite") + "<div class=\"pictures\">\n";
   for (const GalleryPicture& picture : entry.pictures) text += figure(picture, size);
   return text + "</div>\n</section>\n";
 }
@@ -77,9 +62,9 @@ std::string section(const GalleryEntry& entry, int size) {
 }  // namespace
 
 std::string gallery_page(const std::string& title, const std::vector<GalleryEntry>& entries, int picture_size) {
-  std::string text = std::string(head) + "<h1>" + escaped(title) + "</h1>\n<nav>\n";
+  std::string text = std::string(head) + "<h1>" + escape_xml(title) + "</h1>\n<nav>\n";
   for (const GalleryEntry& entry : entries)
-    text += "<a href=\"#" + anchor(entry.name) + "\">" + escaped(entry.name) + "</a>\n";
+    text += "<a href=\"#" + anchor(entry.name) + "\">" + escape_xml(entry.name) + "</a>\n";
   text += "</nav>\n";
   for (const GalleryEntry& entry : entries) text += section(entry, picture_size);
   return text + "</body>\n</html>\n";

@@ -8,6 +8,7 @@
 #include "catalog/bind.h"
 #include "catalog/images.h"
 #include "command.h"
+#include "film.h"
 #include "grow_files.h"
 #include "grow_run.h"
 #include "grown_coat.h"
@@ -25,8 +26,9 @@ namespace pelage {
 
 namespace {
 
-PictureOptions picture_of(const GrowOptions& options, const Quality& quality, UpAxis up) {
-  PictureOptions picture = picture_options(options.view, options.picture_size, up);
+PictureOptions picture_of(const GrowOptions& options, const Quality& quality, UpAxis up, const TriangleMesh& shape) {
+  const bool drawn = options.frames || !options.picture.empty() || !options.panels.empty();
+  PictureOptions picture = picture_options(options.view, options.picture_size, up, drawn ? shape : TriangleMesh{});
   picture.samples = quality.picture_samples;
   return picture;
 }
@@ -83,12 +85,16 @@ void check_kind(const GrowOptions& options, const Look& look, const ShapeFile& f
   }
   if (file.nodes && look.displace)
     throw Error(Fault::usage, "--displace moves the vertices of surfaces; the nodes of this shape stay where they are");
+  if (cut && !options.lines.files.empty())
+    throw Error(Fault::usage, "--lines are those of the shape's surface: leave --cut and --isosurface out");
   for (const std::string& path : options.outputs)
     if (is_node_output(path)) check_node_output(path, file.nodes.get());
   if (cut && !is_volume(file.nodes.get()))
     throw Error(Fault::usage,
                 "--cut and --isosurface show the inside of volumes, and the shape is none; take for example "
                 "builtin:box?n=64x64x64 or a .vtu or .msh file");
+  if (options.frames && is_volume(file.nodes.get()))
+    throw Error(Fault::usage, "--frames is for surfaces and grids; of a volume only the end is shown");
   if (!carving.cuts.empty() && !leaves_something(*file.nodes, file.mesh.points, carving.cuts))
     throw Error(Fault::usage, "--cut leaves nothing of the shape, which pelage check describes");
   if (!file.nodes && file.mesh.triangles.empty())
@@ -112,28 +118,31 @@ ShapeFile read_input(const GrowOptions& options, const std::string& shape, const
   return file;
 }
 
-/// The run and its matrices are gone when the coat is drawn.
-Grown grow_coat(const GrowOptions& options, std::unique_ptr<Run> run, const CoatRequest& request,
-                const Progress& progress, GrowReport& report) {
+void grow_run(const GrowOptions& options, Run& run, const CoatRequest& request, const Progress& progress,
+              GrowReport& report) {
   check_coat(request);
-  set_out(*run, options, progress, report);
+  set_out(run, options, progress, report);
   const Stopwatch growth;
   SpaceTime plot;
   Observer plotting;
   if (!options.plot.empty()) {
     require_line(request.file);
-    plot.add(*run);
+    plot.add(run);
     plotting = [&plot](const Run& now) { plot.add(now); };
   }
-  grow_to_the_end(*run, options, plotting, progress, report);
-  report.growth(*run, growth.seconds());
-  if (run->world().surface()) report.surface(*run->world().surface());
+  grow_to_the_end(run, options, plotting, progress, report);
+  report.growth(run, growth.seconds());
+  if (run.world().surface()) report.surface(*run.world().surface());
   if (!options.checkpoint.empty()) report.file(options.checkpoint);
   if (!options.plot.empty()) {
-    write_png(space_time_plot(plot, *run, request.look, options.picture_size), options.plot);
+    write_png(space_time_plot(plot, run, request.look, options.picture_size), options.plot);
     report.file(options.plot);
   }
-  if (request.look.keep_shape) report.coarseness(*run);
+  if (request.look.keep_shape) report.coarseness(run);
+}
+
+/// The run and its matrices are gone when the coat is drawn.
+Grown coat_of(std::unique_ptr<Run> run, const CoatRequest& request, const Progress& progress, GrowReport& report) {
   const CoatFields fields = run->fields();
   const std::shared_ptr<const TriangleMesh> shape = shape_of(run->program());
   run.reset();
@@ -146,7 +155,10 @@ void grow(const GrowOptions& options) {
   check_outputs(options, recipe.shape);
   if (!options.panels.empty() && !recipe.motion.fair)
     throw Error(Fault::usage, "--panels shows what --fair does; give it too");
+  check_lines(options.lines, names_of_species(planned));
   check_inputs(options, recipe);
+  std::optional<Film> film;
+  if (options.frames) film.emplace(options, planned);
   require_outputs(options);
   catch_interrupts();
   const ThreadLimit threads(options.threads.value_or(0));
@@ -163,18 +175,34 @@ void grow(const GrowOptions& options) {
   const UpAxis up = options.view.up.value_or(file.up);
   const Carving carving = carving_of(options, planned, up);
   check_kind(options, recipe.look, file, carving);
+  make_atlas(options, recipe, file, progress, report);
+  if (options.print.any() && is_for<Cells>(planned))
+    throw Error(Fault::usage,
+                "--perforate and --thicken cut whole surfaces; cells may lie on any: take another --method");
+  check_print(options.print, recipe.look, file, wants_images(options), names_of_species(planned));
   const std::optional<UvLayout> layout = layout_of(options, file, report);
   if (!recipe.look.keep_shape && !layout) file.source.reset();
 
   const CoatRequest request{options, recipe.look, file, layout, carving};
+  std::shared_ptr<const Program> program;
   auto run = interruptible("before the growth began; nothing was written", [&] {
-    return std::make_unique<Run>(bind_plan(planned, file, std::move(images)), progress);
+    program = std::make_shared<const Program>(bind_plan(planned, file, std::move(images)));
+    return std::make_unique<Run>(program, World(program, progress), progress);
   });
-  const Grown grown = grow_coat(options, std::move(run), request, progress, report);
+  grow_run(options, *run, request, progress, report);
   SaveOptions form{object_name(file, recipe.shape), up};
   form.compress = options.compress;
-  write_files(options, grown, file, recipe.look.keep_shape, form, progress, report);
-  write_pictures(options, recipe, grown, file, picture_of(options, *planned.quality, up), progress, report);
+  if (film) {
+    film->end_with(*run, recipe.look);
+    const PictureOptions picture = picture_of(options, *planned.quality, up, *shape_of(run->program()));
+    run.reset();
+    film->shoot(program, {recipe.look, file, picture, form}, progress, report);
+  } else {
+    const Grown grown = coat_of(std::move(run), request, progress, report);
+    write_files(options, grown, file, recipe.look.keep_shape, form, progress, report);
+    write_pictures(options, recipe, grown, file, picture_of(options, *planned.quality, up, *grown.shape), progress,
+                   report);
+  }
   if (options.profile) report.profile(profile);
   report.end(total.seconds());
 }

@@ -66,7 +66,7 @@ void write_picture(const std::string& path, const Progress& progress, GrowReport
 Saving save_with_textures(const Grown& grown, const std::string& path, const SaveOptions& form) {
   PolygonMesh mesh = grown.textured ? *grown.textured : polygons_of(grown.coat);
   std::vector<std::string> files = save_textured(mesh, path, form, *grown.textures);
-  erase_imaged(mesh.attributes);
+  erase_imaged(mesh.attributes, grown.textures->maps[0]);
   return {std::move(files), "", losses(mesh, extension_of(path))};
 }
 
@@ -93,14 +93,20 @@ void write_files(const GrowOptions& options, const Grown& grown, const ShapeFile
   for (const MapFile& map : save_maps(*grown.textures, options.baked_maps)) report.file(map.path, map.about);
 }
 
+Image draw_coat(const TriangleMesh& coat, const GrowOptions& options, const ShapeFile& file,
+                const PictureOptions& picture, const Progress& progress) {
+  const Grid* grid = as<Grid>(file.nodes);
+  if (grid && grid->dimension() < 3 && is_flat(*grid))
+    return picture_of_nodes(*grid, coat, options.preview, options.picture_size);
+  return render(has_corner_normals(coat) ? split_corners(coat) : coat, picture, progress);
+}
+
 void write_pictures(const GrowOptions& options, const Recipe& recipe, const Grown& grown, const ShapeFile& file,
                     const PictureOptions& picture, const Progress& progress, GrowReport& report) {
   write_picture(options.picture, progress, report, [&](const Progress& p) {
-    const Grid* grid = as<Grid>(file.nodes);
-    if (grown.image) return picture_of_nodes(*grid, *grown.image, options.preview, options.picture_size);
-    if (grid && grid->dimension() < 3 && is_flat(*grid))
-      return picture_of_nodes(*grid, grown.coat, options.preview, options.picture_size);
-    return render(has_corner_normals(grown.coat) ? split_corners(grown.coat) : grown.coat, picture, p);
+    if (grown.image)
+      return picture_of_nodes(*as<Grid>(file.nodes), *grown.image, options.preview, options.picture_size);
+    return draw_coat(grown.coat, options, file, picture, p);
   });
   write_picture(options.panels, progress, report,
                 [&](const Progress& p) { return four_panels(recipe, *grown.shape, grown.coat, picture, p); });

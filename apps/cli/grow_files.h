@@ -12,6 +12,10 @@ namespace pelage {
 void write_files(const GrowOptions& options, const Grown& grown, const ShapeFile& file, bool keep_shape,
                  const SaveOptions& form, const Progress& progress, GrowReport& report);
 
+/// A picture of a coat: of flat grids their nodes as pixels.
+Image draw_coat(const TriangleMesh& coat, const GrowOptions& options, const ShapeFile& file,
+                const PictureOptions& picture, const Progress& progress);
+
 void write_pictures(const GrowOptions& options, const Recipe& recipe, const Grown& grown, const ShapeFile& file,
                     const PictureOptions& picture, const Progress& progress, GrowReport& report);
 

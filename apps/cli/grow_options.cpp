@@ -31,6 +31,7 @@
 #include "texture_outputs.h"
 #include "time/stepper.h"
 #include "usage.h"
+#include "video.h"
 
 namespace pelage {
 
@@ -39,8 +40,6 @@ namespace {
 constexpr std::int64_t most_steps = 1'000'000'000'000;
 constexpr int largest_picture = 32768;
 constexpr int most_tiles = 16;
-constexpr int smallest_texture = 16, largest_texture = 16384;
-
 /// Of --bake: whole numbers in that range; larger ones are told what they would need.
 CLI::Validator texture_size_option() {
   const CLI::Validator whole = whole_number(smallest_texture, std::numeric_limits<std::int32_t>::max());
@@ -259,7 +258,8 @@ void add_file_options(CLI::App& app, GrowOptions& o, const std::string& group) {
       ->group(group);
   app.add_option(
          "--bake", o.bake,
-         "Of a shape with uv, and of patches: the coat as images of so many texels along a side instead of "
+         "Of surfaces and patches: the coat as images of so many texels along a side, on the uv or an atlas, instead "
+         "of "
          "colours at vertices, in GLB or beside OBJ, on the shape as it is; also the size of --maps, of .png and "
          "--patch-images (default: 2048)")
       ->type_name("N")
@@ -270,6 +270,11 @@ void add_file_options(CLI::App& app, GrowOptions& o, const std::string& group) {
          "These images as files, PREFIX-color.png, PREFIX-height.png and .exr, PREFIX-normal.png where the look "
          "has a height; of UDIM tiles PREFIX-color.1001.png and so on")
       ->type_name("PREFIX")
+      ->group(group);
+  app.add_flag("--mips", o.mips,
+               "Beside --maps of a surface: PREFIX-color.ktx2, the colours with all their mip levels, which are "
+               "blurred on the "
+               "surface, so that nothing bleeds across seams of the uv")
       ->group(group);
   app.add_option("--patch-images", o.patch_images, "Of patches: folder for an image of each, PATCH.png")
       ->type_name("FOLDER")
@@ -323,6 +328,22 @@ void add_picture_options(CLI::App& app, GrowOptions& o, const std::string& group
                  "on the noisy shape, and the coat")
       ->type_name("FILE")
       ->group(group);
+  CLI::Option* frames =
+      app.add_option("--frames", o.frames,
+                     "Show the growth: so many frames at even distances in time. --picture walk.png becomes "
+                     "walk.0001.png and so on, .mp4 and .webm a video (by ffmpeg), -o coat.vtp the files coat.0001.vtp "
+                     "... with coat.pvd, .glb one file whose colours move")
+          ->type_name("N")
+          ->check(whole_number(2, 100'000))
+          ->group(group);
+  app.add_flag("--loop", o.loop, "These show the last period, so that they can be repeated, of models that have one")
+      ->needs(frames)
+      ->group(group);
+  app.add_option("--from-frame", o.from_frame, "Go on with the frame of that number; those before it are there")
+      ->type_name("N")
+      ->check(whole_number(1, 100'000))
+      ->needs(frames)
+      ->group(group);
   app.add_option("--picture-size", o.picture_size, "Width and height of the picture, pixels (default: 1024)")
       ->type_name("N")
       ->check(whole_number(1, largest_picture))
@@ -333,7 +354,9 @@ void add_picture_options(CLI::App& app, GrowOptions& o, const std::string& group
 void add_output_options(CLI::App& app, GrowOptions& o) {
   const std::string group = "Output";
   add_file_options(app, o, group);
+  add_line_options(app, o.lines, group);
   add_inside_options(app, o, group);
+  add_print_options(app, o.print, group);
   add_picture_options(app, o, group);
   app.add_flag("--profile", o.profile, "Print where the time went")->group(group);
   app.add_flag("--json", o.json, "Print what was done as JSON")->group(group);
@@ -560,7 +583,8 @@ void check_inputs(const GrowOptions& options, const Recipe& recipe) {
 
 void require_outputs(const GrowOptions& options) {
   if (options.outputs.empty() && options.picture.empty() && options.panels.empty() && options.plot.empty() &&
-      options.height_map.empty() && options.patch_images.empty() && options.baked_maps.empty())
+      options.height_map.empty() && options.patch_images.empty() && options.baked_maps.empty() &&
+      options.lines.files.empty())
     throw Error(Fault::usage, "nothing to write; give -o FILE, --picture FILE or both");
 }
 
@@ -570,6 +594,9 @@ namespace {
 void check_images(const GrowOptions& options, const std::string& shape) {
   if (!options.patch_images.empty() && !names_atlas(shape))
     throw Error(Fault::usage, "--patch-images is for patches, an image for each of them; take --bake");
+  if (options.mips && options.baked_maps.empty())
+    throw Error(Fault::usage,
+                "--mips goes with --maps PREFIX, whose colours it writes with their mip levels; give it too");
   if (!wants_images(options)) return;
   if (names_grid(shape) && !names_atlas(shape))
     throw Error(Fault::usage, "--bake and --maps are for surfaces with uv and for patches; of a grid write a .png");
@@ -599,7 +626,9 @@ void check_outputs(const GrowOptions& options, const std::string& shape) {
     refuse_input_as_output(output, shape);
   }
   if (!options.picture.empty()) {
-    check_picture_path(options.picture);
+    if (is_video(options.picture) && !options.frames)
+      throw Error(Fault::usage, options.picture + ": a video shows the growth; say of how many --frames");
+    if (!is_video(options.picture)) check_picture_path(options.picture);
     check_picture_size(options.picture_size, options.picture_size, options.picture);
   }
   if (!options.plot.empty()) check_picture_path(options.plot);
@@ -616,6 +645,7 @@ void check_outputs(const GrowOptions& options, const std::string& shape) {
     const auto [width, height] = size_of_panels(options.picture_size);
     check_picture_size(width, height, options.panels);
   }
+  for (const std::string& path : options.lines.files) refuse_input_as_output(path, shape);
   if (options.checkpoint.empty()) return;
   check_folder(options.checkpoint);
   refuse_input_as_output(options.checkpoint, shape);

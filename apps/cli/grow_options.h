@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "command.h"
+#include "line_outputs.h"
 #include "pelage/recipe.h"
+#include "print_options.h"
 #include "view_options.h"
 
 namespace pelage {
@@ -36,10 +38,16 @@ struct GrowOptions {
   std::string picture, panels, plot, height_map, patch_images, checkpoint, resume;
   std::optional<int> bake;        ///< texels along a side of images on meshes
   std::string baked_maps;         ///< how the names of such images begin
+  bool mips = false;              ///< whether they have their smaller copies with them
   std::vector<std::string> cuts;  ///< "x < 0"
   std::optional<std::string> isosurface;
+  LineOptions lines;
   std::array<int, 2> preview{1, 1};  ///< tiles across and down
   int picture_size = 1024;
+  std::optional<int> frames;  ///< of the growth
+  int from_frame = 1;
+  bool loop = false;
+  PrintOptions print;
   ViewOptions view;
   bool json = false, quiet = false;
 };

@@ -235,6 +235,11 @@ void GrowReport::grown(const Run& run, std::size_t stage, const RunSummary& s) {
                                       {"maximum", json_number(s.maximum)}};
 }
 
+void GrowReport::solid(const std::string& about) {
+  line("solid", about);
+  json_["solid"] = about;
+}
+
 void GrowReport::file(const std::string& path, const std::string& about) {
   std::error_code ignored;
   const auto bytes = std::filesystem::file_size(path, ignored);

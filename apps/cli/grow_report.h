@@ -30,6 +30,8 @@ class GrowReport {
   void estimate(const Run& run, double seconds);
   void surface(const MovingSurface& surface);
   void growth(const Run& run, double seconds);
+  /// What a coat is as a solid.
+  void solid(const std::string& about);
   /// `about`: what one must know to read it, or empty.
   void file(const std::string& path, const std::string& about = {});
   void profile(Profile& profile);

@@ -44,16 +44,6 @@ class GrowthClock {
   bool told_ = false;
 };
 
-void restore(Run& run, const std::string& path) {
-  if (path.empty()) return;
-  const std::string bytes = read_file(path);
-  try {
-    run.restore(bytes);
-  } catch (const Error& error) {
-    throw Error(error.fault(), error.what(), {path});
-  }
-}
-
 void begin_nested(Run& run, const Progress& progress, GrowReport& report) {
   const int grids =
       interruptible("before the growth began; nothing was written", [&] { return grow_nested(run, progress); });
@@ -87,6 +77,16 @@ void advance(Run& run, std::int64_t steps) {
 }
 
 }  // namespace
+
+void restore(Run& run, const std::string& path) {
+  if (path.empty()) return;
+  const std::string bytes = read_file(path);
+  try {
+    run.restore(bytes);
+  } catch (const Error& error) {
+    throw Error(error.fault(), error.what(), {path});
+  }
+}
 
 void set_out(Run& run, const GrowOptions& options, const Progress& progress, GrowReport& report) {
   if (options.nested) begin_nested(run, progress, report);

@@ -37,6 +37,9 @@ auto interruptible(const std::string& when, Work&& work) {
 /// Is told of a run.
 using Observer = std::function<void(const Run&)>;
 
+/// To the state of that file, unless the name is empty. Errors of Run::restore, with the file.
+void restore(Run& run, const std::string& path);
+
 /// From the state of options.resume, where one is given, and with --nested from coarser grids.
 void set_out(Run& run, const GrowOptions& options, const Progress& progress, GrowReport& report);
 

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "grow_run.h"
+#include "io/file_bytes.h"
 #include "look/coat_sampler.h"
 #include "look/dress.h"
+#include "look/mip_levels.h"
 #include "look/sheet_image.h"
 #include "look/solid_tessellation.h"
 #include "look/tessellation.h"
@@ -52,22 +55,26 @@ TriangleMesh shaded_mesh(const PolygonMesh& textured, const TriangleMesh& shape)
 }
 
 /// The coat on the surface that it has grown on, as images on the file's own mesh.
-void bake_surface(const CoatFields& fields, const Look& look, const UvLayout& layout, const ShapeFile& file,
-                  Grown& grown, GrowReport& report) {
+void bake_surface(const CoatFields& fields, const CoatRequest& request, Grown& grown, GrowReport& report) {
+  const auto& [options, look, file, wanted_layout, carving] = request;
+  const UvLayout& layout = *wanted_layout;
   const Cells* cells = as<Cells>(fields.nodes);
   const TriangleMesh& shape = cells ? *cells->on : *grown.shape;
   Look as_given = look;
   as_given.keep_shape = true;
   grown.textured = kept_shape(form_of_shape(file, shape), dress(fields, as_given), grown.paint);
+  if (const std::string line = too_coarse(shape, layout.size(), fields.wavelength); !line.empty()) report.warning(line);
   std::optional<ShadingFrames> frames;
   if (grown.paint.channels.contains(Channel::height)) frames.emplace(shaded_mesh(*grown.textured, shape));
   Look smooth = look;
   smooth.keep_shape = false;
   const Tessellation t = tessellate(fields, tessellation_request(smooth, grown.paint));
-  BakedCoat baked = bake(CoatSampler(fields, t, grown.paint), make_palette(grown.paint, t.samples, fields.uniform),
-                         layout, frames ? &*frames : nullptr);
+  const CoatSampler sampler(fields, t, grown.paint);
+  const Palette palette = make_palette(grown.paint, t.samples, fields.uniform);
+  BakedCoat baked = bake(sampler, palette, layout, frames ? &*frames : nullptr);
   for (const std::string& line : lines_of({baked.hidden}, shape, file.source.get())) report.warning(line);
   grown.textures = textures_of(std::move(baked), layout);
+  if (options.mips) grown.textures->levels = mip_levels(sampler, palette, shape, layout);
 }
 
 void require_sheet(const ShapeFile& file) {
@@ -90,10 +97,31 @@ void write_relief(const Grid& sheet, const CoatFields& fields, const Look& look,
   report.file(path, "black is " + number(low) + " and white " + number(high) + " above the sheet");
 }
 
-TriangleMesh dressed(const CoatFields& fields, const Look& look, const Paint& paint, GrowReport& report) {
-  Tessellation t = tessellate(fields, tessellation_request(look, paint));
+void write_coat_lines(const CoatFields& fields, const CoatRequest& request, GrowReport& report) {
+  const LineOptions& options = request.options.lines;
+  const LineFiles written =
+      write_lines(options, fields, request.look, request.options.view.up.value_or(request.file.up));
+  for (const std::string& text : written.warnings) report.warning(text);
+  for (std::size_t i = 0; i < options.files.size(); ++i) report.file(options.files[i], written.about[i]);
+}
+
+TriangleMesh dressed(const CoatFields& fields, const CoatRequest& request, const TriangleMesh& shape, Paint paint,
+                     GrowReport& report) {
+  const PrintOptions& print = request.options.print;
+  add_holes(paint, print);
+  Tessellation t = tessellate(fields, tessellation_request(request.look, paint));
   for (const std::string& line : clamped_channels(t.samples, paint)) report.warning(line);
-  return dress(std::move(t), paint, fields.uniform);
+  const ShapeScale scale = fields.nodes ? scale_of(*fields.nodes, shape) : scale_of(shape);
+  PrintedCoat printed = printed_coat(std::move(t), paint, fields.uniform, print, scale);
+  for (const std::string& line : printed.warnings) report.warning(line);
+  return std::move(printed.coat);
+}
+
+/// What printers need to know of its surface.
+void report_print(const TriangleMesh& coat, const CoatRequest& request, GrowReport& report) {
+  if (!request.options.print.any() && !request.look.displace) return;
+  if (const std::string line = line_about_meetings(coat); !line.empty()) report.warning(line);
+  if (request.options.print.thickness) report.solid(about_solid(coat));
 }
 
 /// Whether a coat on a sheet is asked for as nothing but pixels.
@@ -132,7 +160,20 @@ void add_patches(const CoatFields& fields, const Look& look, const GrowOptions& 
 
 }  // namespace
 
+void make_atlas(const GrowOptions& options, const Recipe& recipe, ShapeFile& file, const Progress& progress,
+                GrowReport& report) {
+  if (!wants_images(options) || (file.nodes && !as<Cells>(file.nodes)) || file.mesh.triangles.empty() ||
+      has_uv(file.mesh) || !recipe.textures.empty())
+    return;
+  auto [with_uv, line] = interruptible("before the growth began; nothing was written",
+                                       [&] { return with_atlas(std::move(file), texture_size(options), progress); });
+  file = std::move(with_uv);
+  report.warning(line + (options.outputs.empty() ? "; only the mesh of -o FILE has it" : ""));
+}
+
 std::optional<UvLayout> layout_of(const GrowOptions& options, const ShapeFile& file, GrowReport& report) {
+  if (options.mips && as<Atlas>(file.nodes))
+    throw Error(Fault::usage, "--mips is for uv of surfaces, where charts have seams; leave it out for patches");
   if (!wants_images(options) || as<Atlas>(file.nodes)) return {};
   if (file.nodes && !as<Cells>(file.nodes))
     throw Error(Fault::usage, "--bake and --maps are for surfaces with uv and for patches, and the shape is neither");
@@ -152,6 +193,7 @@ Grown grown_coat(const CoatFields& fields, const std::shared_ptr<const TriangleM
   Grown grown{{}, {}, {}, shape, resolve_paint(look, fields.species), fields.nodes, {}, {}, {}};
   progress("colouring", 0);
   if (!options.height_map.empty()) write_relief(*as<Grid>(file.nodes), fields, look, options.height_map, report);
+  if (!options.lines.files.empty()) write_coat_lines(fields, request, report);
   if (only_images(options, look) && is_bare_sheet(fields)) {
     grown.image = sheet_image(fields, look);
     return grown;
@@ -161,12 +203,13 @@ Grown grown_coat(const CoatFields& fields, const std::shared_ptr<const TriangleM
     reduce(grown.coat, options, report);
     return grown;
   }
-  grown.coat = dressed(fields, look, grown.paint, report);
+  grown.coat = dressed(fields, request, *shape, grown.paint, report);
   reduce(grown.coat, options, report);
+  report_print(grown.coat, request, report);
   if (wants_patches(options, file)) add_patches(fields, look, options, grown);
   if (layout) {
     progress("baking", 0);
-    bake_surface(fields, look, *layout, file, grown, report);
+    bake_surface(fields, request, grown, report);
   }
   return grown;
 }

@@ -35,6 +35,10 @@ struct CoatRequest {
   const Carving& carving;                 ///< of volumes
 };
 
+/// Where images are asked for, a surface without uv gets some; but for images that the recipe reads by uv.
+void make_atlas(const GrowOptions& options, const Recipe& recipe, ShapeFile& file, const Progress& progress,
+                GrowReport& report);
+
 /// Of surfaces, where images are asked for; warns of what is unusual.
 std::optional<UvLayout> layout_of(const GrowOptions& options, const ShapeFile& file, GrowReport& report);
 

@@ -74,10 +74,11 @@ int main(int argc, char** argv) {
   app.formatter(std::make_shared<pelage::HelpFormat>());
   app.footer(examples);
   const std::vector<pelage::Command> commands = {
-      pelage::add_grow(app),    pelage::add_check(app),   pelage::add_models(app),  pelage::add_formulas(app),
-      pelage::add_analyse(app), pelage::add_map(app),     pelage::add_gallery(app), pelage::add_recipes(app),
-      pelage::add_fair(app),    pelage::add_field(app),   pelage::add_compare(app), pelage::add_grid(app),
-      pelage::add_cells(app),   pelage::add_measure(app), pelage::add_unwrap(app),  pelage::add_verify(app)};
+      pelage::add_grow(app),    pelage::add_check(app), pelage::add_models(app),  pelage::add_formulas(app),
+      pelage::add_analyse(app), pelage::add_map(app),   pelage::add_gallery(app), pelage::add_sheet(app),
+      pelage::add_recipes(app), pelage::add_fair(app),  pelage::add_field(app),   pelage::add_compare(app),
+      pelage::add_grid(app),    pelage::add_cells(app), pelage::add_measure(app), pelage::add_unwrap(app),
+      pelage::add_render(app),  pelage::add_verify(app)};
   if (argc == 1) {
     std::fputs(app.help().c_str(), stderr);
     return static_cast<int>(Fault::usage);

@@ -15,6 +15,7 @@
 #include "look/dress.h"
 #include "look/flat_tile.h"
 #include "look/ramp.h"
+#include "look/ticks.h"
 #include "pelage/io.h"
 #include "progress_bar.h"
 #include "run/parameter_map.h"
@@ -120,8 +121,8 @@ ContactSheet make_sheet(const MapOptions& options, const MapRequest& request, co
   sheet.subtitle = look.species->value + " on flat squares of side " + brief(map.side) + ", each on its own scale";
   sheet.x_label = request.x.parameter;
   sheet.y_label = request.y.parameter;
-  for (int i = 0; i < request.x.count; ++i) sheet.x.push_back(request.x.at(i));
-  for (int j = 0; j < request.y.count; ++j) sheet.y.push_back(request.y.at(j));
+  for (int i = 0; i < request.x.count; ++i) sheet.x.push_back(label_of(request.x.at(i)));
+  for (int j = 0; j < request.y.count; ++j) sheet.y.push_back(label_of(request.y.at(j)));
   sheet.tile = sheet_tile(request.x.count, request.y.count);
   for (const MapCell& cell : map.cells) sheet.cells.push_back(sheet_cell(cell, look, sheet.tile));
   return sheet;

@@ -12,12 +12,16 @@
 #include "io/atomic_file.h"
 #include "io/exr_writer.h"
 #include "io/file_bytes.h"
+#include "io/ktx2_writer.h"
 #include "io/mtl_writer.h"
 #include "io/png_writer.h"
+#include "io/read_shape.h"
 #include "io/write_mesh.h"
 #include "look/grid_picture.h"
 #include "pelage/error.h"
+#include "pelage/unwrap.h"
 #include "shape/finding.h"
+#include "text.h"
 
 namespace pelage {
 
@@ -85,12 +89,39 @@ std::vector<std::string> save_patches(const PatchTexture& texture, const std::st
 
 // --- surfaces ------------------------------------------------------------------------------------------
 
-UvLayout uv_layout(const TriangleMesh& shape, int size) {
+std::string too_coarse(const TriangleMesh& shape, int size, double wavelength) {
+  constexpr double enough = 12,
+                   share = 0.05;  // texels of a wave, between which lookups are right to 3/255; of the area
+  const double texel = texel_length(shape, *shape.find("uv"), size, share);
+  if (!(wavelength > 0) || enough * texel <= wavelength) return "";
+  int factor = 2;
+  while (enough * texel > factor * wavelength && factor <= largest_texture) factor *= 2;
+  const auto waves = [&](int times) { return fixed_number(times * wavelength / texel, 1); };
+  return "with --bake " + std::to_string(size) + " a wave of the pattern has " + waves(1) + " texels or fewer on " +
+         brief(100 * share) + " % of the surface; " +
+         (size * factor <= largest_texture ? "--bake " + std::to_string(size * factor) + " would give " + waves(factor)
+                                           : "an atlas that stretches less would give more, see pelage unwrap");
+}
+
+bool has_uv(const TriangleMesh& shape) {
   const Attribute* uv = shape.find("uv");
-  if (!uv || uv->components != 2 || uv->domain == Domain::face)
+  return uv && uv->components == 2 && uv->domain != Domain::face;
+}
+
+std::pair<ShapeFile, std::string> with_atlas(ShapeFile file, int size, const Progress& progress) {
+  const double margin = std::clamp(size / 512.0, 1.0, UnwrapOptions{}.margin);
+  const PolygonMesh polygons = file.source ? file.source->polygons : polygons_of(file.mesh);
+  Unwrapped atlas = unwrap(polygons, {std::max(size, smallest_texture), margin}, progress);
+  std::string line = "the shape has no uv: it gets an atlas of " + counted(atlas.report.charts, "chart") +
+                     ", as pelage unwrap makes it";
+  return {with_attribute(std::move(file), std::move(atlas.uv)), std::move(line)};
+}
+
+UvLayout uv_layout(const TriangleMesh& shape, int size) {
+  if (!has_uv(shape))
     throw Error(Fault::usage,
                 "the shape has no uv, which says where an image lies on it; pelage unwrap SHAPE -o FILE.obj makes one");
-  return UvLayout(shape.triangles, *uv, size);
+  return UvLayout(shape.triangles, *shape.find("uv"), size);
 }
 
 namespace {
@@ -152,7 +183,9 @@ CoatTextures textures_of(BakedCoat baked, const UvLayout& layout) {
       return found == tile.greys.end() ? nullptr : shared(found->second);
     };
     textures.maps.push_back({shared(tile.color), shared(tile.normal), grey(Channel::roughness),
-                             grey(Channel::metalness), grey(Channel::opacity), shared(tile.emission)});
+                             grey(Channel::metalness), grey(Channel::opacity), shared(tile.emission),
+                             grey(Channel::transmission), grey(Channel::thickness), baked.scales.brightest,
+                             baked.scales.deepest});
     textures.heights.push_back(std::move(tile.height));
   }
   return textures;
@@ -165,13 +198,17 @@ namespace {
 struct NamedMap {
   std::string name;  ///< as files are called
   std::shared_ptr<const Pixels> pixels;
+  std::string about = {};  ///< what must be known to read it
 };
 
 /// Those that there are.
 std::vector<NamedMap> named_maps(const TextureMaps& maps) {
   std::vector<NamedMap> named = {{"color", maps.color},         {"normal", maps.normal},
                                  {"roughness", maps.roughness}, {"metalness", maps.metalness},
-                                 {"opacity", maps.opacity},     {"emission", maps.emission}};
+                                 {"opacity", maps.opacity},     {"transmission", maps.transmission}};
+  const auto scaled = [](double white) { return white == 1 ? "" : "white is " + number(white); };
+  named.push_back({"emission", maps.emission, scaled(maps.emission_strength)});
+  named.push_back({"thickness", maps.thickness, scaled(maps.deepest)});
   std::erase_if(named, [](const NamedMap& map) { return !map.pixels; });
   return named;
 }
@@ -233,7 +270,7 @@ std::vector<std::string> save_textured_obj(PolygonMesh mesh, const std::string& 
   std::string text;
   const std::vector<std::string>& materials = mesh.find("material")->labels;
   for (std::size_t i = 0; i < materials.size(); ++i)
-    text += mtl_text(materials[i], maps[textures.tiles.size() > 1 ? i : 0]);
+    text += mtl_text(materials[i], maps[textures.tiles.size() > 1 ? i : 0], textures.maps[0].emission_strength);
   write_file(library, text);
   save(mesh, path, form);
   return files;
@@ -291,7 +328,14 @@ std::vector<MapFile> save_maps(const CoatTextures& textures, const std::string& 
   };
   for (std::size_t t = 0; t < textures.maps.size(); ++t) {
     for (const NamedMap& map : named_maps(textures.maps[t]))
-      add(t, map.name, ".png", "", [pixels = map.pixels](const std::string& path) { write_png(*pixels, path); });
+      add(t, map.name, ".png", map.about, [pixels = map.pixels](const std::string& path) { write_png(*pixels, path); });
+    if (!textures.levels.empty())
+      add(t, "color", ".ktx2", counted(textures.levels[t].size() + 1, "level"),
+          [&textures, t](const std::string& path) {
+            std::vector<const Pixels*> levels = {textures.maps[t].color.get()};
+            for (const Pixels& level : textures.levels[t]) levels.push_back(&level);
+            write_file(path, ktx2_bytes(levels));
+          });
     if (textures.heights.empty()) continue;
     const std::vector<float>& heights = textures.heights[t];
     const auto [low, high] = range_of(textures.heights);

@@ -8,17 +8,19 @@
 #include "look/bake.h"
 #include "look/patch_texture.h"
 #include "pelage/io.h"
+#include "pelage/progress.h"
 
 namespace pelage {
 
-inline constexpr int default_texture = 2048;    ///< texels along a side
-inline constexpr double bytes_of_a_texel = 24;  ///< that baking and writing need at once, about
+inline constexpr int smallest_texture = 16, default_texture = 2048, largest_texture = 16384;  ///< texels along a side
+inline constexpr double bytes_of_a_texel = 27;  ///< that baking and writing need at once, about
 
 /// The images of a mesh.
 struct CoatTextures {
   std::vector<int> tiles = {1001};          ///< their numbers; a single one is none that files need to name
   std::vector<TextureMaps> maps;            ///< of each tile
   std::vector<std::vector<float>> heights;  ///< of each tile, as of BakedTile; empty for patches
+  std::vector<std::vector<Pixels>> levels;  ///< of the colours of each tile, from the first smaller copy on, or empty
   bool repeat = false;
   int size = 0;
 };
@@ -45,8 +47,17 @@ std::vector<std::string> save_patches(const PatchTexture& texture, const std::st
 
 // --- surfaces ------------------------------------------------------------------------------------------
 
+/// Whether it has one that an image can lie on.
+bool has_uv(const TriangleMesh& shape);
+
+/// The shape with the atlas that pelage unwrap makes for images of that size, and a line that says so.
+std::pair<ShapeFile, std::string> with_atlas(ShapeFile file, int size, const Progress& progress);
+
 /// Of a shape that the run has, for images of that size. Error(Fault::usage) where it has no uv.
 UvLayout uv_layout(const TriangleMesh& shape, int size);
+
+/// What there is to say where texels are too long for a pattern of that wavelength, or "".
+std::string too_coarse(const TriangleMesh& shape, int size, double wavelength);
 
 /// What there is to say of it, a line each. Faces are counted as in the file.
 std::vector<std::string> lines_of(const std::vector<UvNote>& notes, const TriangleMesh& shape,

@@ -1,9 +1,11 @@
 #include "view_options.h"
 
+#include <cmath>
 #include <map>
 
 #include "base/suggest.h"
 #include "look/ramp.h"
+#include "shape/front.h"
 
 namespace pelage {
 
@@ -31,10 +33,18 @@ const Value& named(const std::map<std::string, Value>& table, const std::string&
   return found->second;
 }
 
+/// Shapes that look away from the camera are turned to it; others are seen as they lie in the file.
+double azimuth_of(const ViewOptions& view, double usual, std::optional<double> front) {
+  if (view.from_front) return front.value_or(0) + *view.from_front;
+  const bool away = front && std::abs(std::remainder(*front - usual, 360)) > 90;
+  return away ? *front + usual : usual;
+}
+
 void add_direction_options(CLI::App& app, ViewOptions& o) {
   app.add_option("--azimuth", o.azimuth,
                  "Where the camera stands around the up axis, degrees: 0 before the shape (+z, or -y where z points "
-                 "up), 90 at +x (default: 35)")
+                 "up), 90 at +x (default: 35, or as far from its face where the shape "
+                 "would be seen from behind)")
       ->type_name("DEG");
   app.add_option("--elevation", o.elevation, "And above the horizon, -89 to 89 degrees (default: 14)")
       ->type_name("DEG");
@@ -47,10 +57,11 @@ void add_view_options(CLI::App& app, ViewOptions& o, const std::string& group) {
          "--view",
          [&o](const std::string& name) {
            const View& view = named(views(), "--view", "view", name);
-           if (!o.azimuth) o.azimuth = view.azimuth;
+           if (name != "three-quarter") o.from_front = view.azimuth;
            if (!o.elevation) o.elevation = view.elevation;
          },
-         "From where a picture is taken: front, side, top or three-quarter (default)")
+         "From where a picture is taken, seen from the shape's front if it has one: front, side, top or three-quarter "
+         "(default)")
       ->type_name("NAME");
   add_direction_options(app, o);
   app.add_option("--exposure", o.exposure, "Brighter (or, below 0, darker) by so many stops, factors of two")
@@ -79,11 +90,11 @@ void add_view_options(CLI::App& app, ViewOptions& o, const std::string& group) {
     if (!group.empty()) app.get_option(name)->group(group);
 }
 
-PictureOptions picture_options(const ViewOptions& view, int size, UpAxis up) {
+PictureOptions picture_options(const ViewOptions& view, int size, UpAxis up, const TriangleMesh& shape) {
   PictureOptions picture;
   picture.width = picture.height = size;
   picture.up = view.up.value_or(up);
-  picture.azimuth = view.azimuth.value_or(picture.azimuth);
+  picture.azimuth = view.azimuth ? *view.azimuth : azimuth_of(view, picture.azimuth, front_of(shape, picture.up));
   picture.elevation = view.elevation.value_or(picture.elevation);
   picture.background = view.background.value_or(picture.background);
   picture.exposure = view.exposure;

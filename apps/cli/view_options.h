@@ -11,7 +11,8 @@ namespace pelage {
 
 /// What was given.
 struct ViewOptions {
-  std::optional<double> azimuth, elevation;  ///< degrees; --view sets both
+  std::optional<double> azimuth, elevation;  ///< degrees; --view sets the elevation
+  std::optional<double> from_front;          ///< degrees from where the shape looks to, by --view
   std::optional<std::array<double, 3>> background;
   std::optional<UpAxis> up;  ///< or else what the file says
   double exposure = 0;
@@ -21,7 +22,8 @@ struct ViewOptions {
 /// named.
 void add_view_options(CLI::App& app, ViewOptions& options, const std::string& group = {});
 
-/// A square picture of that size of a shape whose file says that `up` points up.
-PictureOptions picture_options(const ViewOptions& view, int size, UpAxis up);
+/// A square picture of that size of a shape whose file says that `up` points up; unless the direction is given, from
+/// before its front where that can be guessed (shape/front.h).
+PictureOptions picture_options(const ViewOptions& view, int size, UpAxis up, const TriangleMesh& shape);
 
 }  // namespace pelage

@@ -64,7 +64,7 @@ struct SaveOptions {
   bool compress = false;
 };
 
-/// Writes a mesh as .glb, .ply, .obj, .vtp, .stl or .off, with all its attributes that the format can hold. Every
+/// Writes a mesh as .glb, .ply, .obj, .vtp, .stl, .off or .3mf, with all its attributes that the format can hold. Every
 /// format is a single file, which appears whole or not at all.
 /// Errors: Fault::usage for an unknown extension; Fault::numerics for a value that is not finite or does not fit a
 /// 32-bit float, naming attribute and vertex; Fault::output when the file cannot be written.

@@ -7,14 +7,23 @@
 
 #include <array>
 #include <memory>
+#include <vector>
 
 #include "pelage/error.h"
 #include "pelage/image.h"
+#include "pelage/point.h"
 #include "pelage/progress.h"
 #include "pelage/triangle_mesh.h"
 #include "pelage/up_axis.h"
 
 namespace pelage {
+
+/// The large soft lamp.
+struct PictureLamp {
+  double azimuth = -42;   ///< degrees to the right of the camera
+  double elevation = 48;  ///< degrees above the floor, 10 to 90
+  double size = 0.3;      ///< radius over distance, 0.02 to 1: shadows are as soft
+};
 
 struct PictureOptions {
   int width = 1024;   ///< pixels, 1 to 32768
@@ -25,6 +34,10 @@ struct PictureOptions {
   double elevation = 14;  ///< degrees above the horizon, -89 to 89
   std::array<double, 3> background = {0.80, 0.80, 0.79};  ///< colour of the backdrop, linear light
   double exposure = 0;                                    ///< stops: brighter by so many factors of two, -20 to 20
+  PictureLamp lamp;
+  double angle = 26;               ///< degrees that the longer side of the picture sees, 1 to 120
+  double margin = 0.09;            ///< of the picture around the object, -0.45 to 0.45: below 0 it is cut off
+  std::vector<Point> framed = {};  ///< what has to be seen, in the mesh's coordinates, instead of all of it
 };
 
 /// The mesh on the ground before a seamless backdrop, framed so that it fills the picture. "color" (linear), "normal"

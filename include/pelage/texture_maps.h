@@ -23,6 +23,10 @@ struct TextureMaps {
   std::shared_ptr<const Pixels> roughness = {}, metalness = {};  ///< one channel
   std::shared_ptr<const Pixels> opacity = {};                    ///< one channel
   std::shared_ptr<const Pixels> emission = {};                   ///< sRGB, three channels
+  std::shared_ptr<const Pixels> transmission = {};               ///< one channel
+  std::shared_ptr<const Pixels> thickness = {};                  ///< one channel
+  double emission_strength = 1;                                  ///< the light of white texels of the emission
+  double deepest = 1;                                            ///< thickness of white texels [units of the mesh]
 };
 
 }  // namespace pelage

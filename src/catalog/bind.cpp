@@ -384,6 +384,9 @@ Program bind_cells(const Plan& plan, TriangleMesh mesh, std::vector<Texture> ima
       bind_plan(plan, std::make_shared<const NodeShape>(std::move(cells)), std::move(points), std::move(images));
   if (reversed > 0)
     p.warnings.push_back(counted(reversed, "triangle") + " turned over, so that all that meet have one side up");
+  if (maker.covered_share() > 0)
+    p.warnings.push_back(number(100 * maker.covered_share(), 2) +
+                         " % of the area lies inside other parts: nothing grows there");
   if (maker.outliers() > 0)
     p.warnings.push_back(std::to_string(maker.outliers()) + " of the " + std::to_string(shape->points.size()) +
                          " points are far from all others: nothing grows on them");

@@ -101,6 +101,7 @@ VariantSource variant(const std::string& name, const Value& table) {
                        .parameters = {},
                        .wavelength = wavelength(table),
                        .wavelength_law = wavelength_law(table),
+                       .period = optional_formula(table, "period"),
                        .suggestions = suggestions(table),
                        .where = table.where()};
   if (const Value* parameters = table.find("parameters"))
@@ -126,6 +127,7 @@ ModelSource model(const Value& document) {
   result.summary = document.string_or("summary", "");
   result.wavelength = wavelength(document);
   result.wavelength_law = wavelength_law(document);
+  result.period = optional_formula(document, "period");
   result.suggestions = suggestions(document);
   for_entries(document, "parameters",
               [&](auto& name, auto& value) { result.parameters.push_back(parameter(name, value)); });

@@ -25,17 +25,6 @@ namespace {
               length.where);
 }
 
-/// More than the whole shape is no fraction of it: most likely the unit was forgotten.
-void require_fraction(const char* what, const std::optional<Given<Length>>& length) {
-  if (!length || length->value.unit != Length::Unit::diagonals || length->value.value <= 1) return;
-  const std::string given = number(length->value.value);
-  throw Error(Fault::usage,
-              std::string(what) + " " + given + " is " + given +
-                  " diagonals of the shape; give a fraction of at most 1, or write " + given + "u for " + given +
-                  " units of the file (" + given + "mm for millimetres)",
-              length->where);
-}
-
 struct NodeDistance {
   const TriangleMesh& mesh;
   double operator()(const Grid& grid) const { return mean_edge(grid); }
@@ -84,6 +73,16 @@ double world_length(const Given<Length>& length, const ShapeScale& scale) {
       break;
   }
   return l.value;
+}
+
+void require_fraction(const char* what, const std::optional<Given<Length>>& length) {
+  if (!length || length->value.unit != Length::Unit::diagonals || length->value.value <= 1) return;
+  const std::string given = number(length->value.value);
+  throw Error(Fault::usage,
+              std::string(what) + " " + given + " is " + given +
+                  " diagonals of the shape; give a fraction of at most 1, or write " + given + "u for " + given +
+                  " units of the file (" + given + "mm for millimetres)",
+              length->where);
 }
 
 void require_sizes(const Stage& stage) {

@@ -34,6 +34,9 @@ struct StageSize {
   double length_unit = 0;  ///< of the model: `wavelength` over that in model length units
 };
 
+/// Error(usage), located, for a length above the whole diagonal: most likely its unit was forgotten.
+void require_fraction(const char* what, const std::optional<Given<Length>>& length);
+
 /// Error(usage), located, when a stage has both a size and a unit, and for lengths above the whole diagonal.
 void require_sizes(const Stage& stage);
 

@@ -20,6 +20,9 @@ constexpr std::string_view text = R"~toml~(title = "Spots to begin with: Schnake
 # waves, say, which are sized by grow --unit.
 # wavelength = 12
 
+# Of a pattern that never rests but comes back: the time after which it does, likewise; grow --loop needs it.
+# period = 50
+
 [parameters]
 a = { value = 0.1, min = 0.01, max = 0.5, unit = "1", help = "supply of the activator" }
 b = { value = 0.9, min = 0.1, max = 2, help = "supply of the substrate" }
@@ -64,7 +67,7 @@ tolerance = 2e-4                           # at rest when it changes by less tha
 # resolution = 6                           # vertices per wavelength at least, from 6 to 64; more for sharp fronts
 # iterations = 3000                        # of the solver until the end: tells how long it will take
 
-# Other values under a name: --model FILE.toml:stripes. A variant may have title, parameters, wavelength, suggested.
+# Other values under a name: --model FILE.toml:stripes. A variant may have title, parameters, wavelength, period, suggested.
 [variants.stripes]
 title = "Stripes"
 parameters = { a = 0.01, b = 2 }

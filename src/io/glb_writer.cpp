@@ -423,6 +423,14 @@ void add_surface(tinygltf::Model& model, tinygltf::Material& material, const Tex
   if (metal) pbr.metallicFactor = 1;
 }
 
+/// Transmission is red and thickness green. Without transmission there is no glass that could be thick.
+void add_glass(tinygltf::Model& model, tinygltf::Material& material, const TextureMaps& maps) {
+  if (!maps.transmission) return;
+  const Pixels *clear = maps.transmission.get(), *thick = maps.thickness.get();
+  const int texture = add_texture(model, packed(*clear, {{clear, 0, 0}, {thick, 0, 0}, {nullptr, 0, 0}}));
+  set_glass(model, material, texture, thick ? std::optional(maps.deepest) : std::nullopt);
+}
+
 /// Each set of images once, whichever materials have it.
 void add_textures(tinygltf::Model& model, const std::vector<TextureMaps>& maps, bool repeat) {
   add_sampler(model, repeat);
@@ -436,10 +444,12 @@ void add_textures(tinygltf::Model& model, const std::vector<TextureMaps>& maps, 
     }
     add_color(model, material, maps[i]);
     add_surface(model, material, maps[i]);
+    add_glass(model, material, maps[i]);
     if (maps[i].normal) material.normalTexture.index = add_texture(model, *maps[i].normal);
     if (!maps[i].emission) continue;
     material.emissiveTexture.index = add_texture(model, *maps[i].emission);
     material.emissiveFactor = {1, 1, 1};
+    set_emission_strength(model, material, maps[i].emission_strength);
   }
 }
 
@@ -452,7 +462,7 @@ bool has_normal_map(const std::vector<TextureMaps>& maps) {
 std::string encode_glb(const TriangleMesh& original, const GlbOptions& options) {
   if (original.triangles.empty()) throw Error(Fault::output, "a GLB file needs at least one triangle");
   TriangleMesh mesh = original;
-  if (!options.textures.empty()) erase_imaged(mesh.attributes);
+  if (!options.textures.empty()) erase_imaged(mesh.attributes, options.textures[0]);
   if (options.up == UpAxis::z) stand_up(mesh);
   const Placement place = placement_of(mesh);
   const bool tangents = has_normal_map(options.textures);

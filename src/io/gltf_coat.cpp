@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 
@@ -42,11 +43,13 @@ bool has_color(const TriangleMesh& mesh) {
   return color && color->domain == Domain::vertex && color->components >= 3;
 }
 
-void set_extension(tinygltf::Model& model, tinygltf::Material& material, const std::string& name, const char* key,
-                   double value) {
-  material.extensions[name] = tinygltf::Value({{key, tinygltf::Value(value)}});
+void set_extension(tinygltf::Model& model, tinygltf::Material& material, const std::string& name,
+                   const tinygltf::Value::Object& values) {
+  material.extensions[name] = tinygltf::Value(values);
   if (std::ranges::count(model.extensionsUsed, name) == 0) model.extensionsUsed.push_back(name);
 }
+
+tinygltf::Value number_value(double x) { return tinygltf::Value(x); }
 
 /// Emission times colour.
 void set_emission(const TriangleMesh& mesh, tinygltf::Model& model, tinygltf::Material& material) {
@@ -59,23 +62,36 @@ void set_emission(const TriangleMesh& mesh, tinygltf::Model& model, tinygltf::Ma
       sum[k] += emission->values[v] * (color ? color->values[v * static_cast<std::size_t>(color->components) + k] : 1);
   for (double& x : sum) x /= static_cast<double>(count);
   const double strength = *std::ranges::max_element(sum);
-  if (strength > 1) {
+  if (strength > 1)
     for (double& x : sum) x /= strength;
-    set_extension(model, material, "KHR_materials_emissive_strength", "emissiveStrength", strength);
-  }
+  set_emission_strength(model, material, strength);
   material.emissiveFactor = sum;
 }
 
 }  // namespace
+
+void set_emission_strength(tinygltf::Model& model, tinygltf::Material& material, double strength) {
+  if (strength > 1)
+    set_extension(model, material, "KHR_materials_emissive_strength", {{"emissiveStrength", number_value(strength)}});
+}
+
+void set_glass(tinygltf::Model& model, tinygltf::Material& material, int texture, std::optional<double> deepest) {
+  const tinygltf::Value reference(tinygltf::Value::Object{{"index", tinygltf::Value(texture)}});
+  set_extension(model, material, "KHR_materials_transmission",
+                {{"transmissionFactor", number_value(1)}, {"transmissionTexture", reference}});
+  if (deepest)
+    set_extension(model, material, "KHR_materials_volume",
+                  {{"thicknessFactor", number_value(*deepest)}, {"thicknessTexture", reference}});
+}
 
 void set_coat(const TriangleMesh& mesh, tinygltf::Model& model, tinygltf::Material& material) {
   material.pbrMetallicRoughness.metallicFactor = mean(mesh, Channel::metalness);
   material.pbrMetallicRoughness.roughnessFactor = mean(mesh, Channel::roughness);
   set_emission(mesh, model, material);
   if (const double transmission = mean(mesh, Channel::transmission); transmission > 0) {
-    set_extension(model, material, "KHR_materials_transmission", "transmissionFactor", transmission);
+    set_extension(model, material, "KHR_materials_transmission", {{"transmissionFactor", number_value(transmission)}});
     if (const double thickness = mean(mesh, Channel::thickness); thickness > 0)
-      set_extension(model, material, "KHR_materials_volume", "thicknessFactor", thickness);
+      set_extension(model, material, "KHR_materials_volume", {{"thicknessFactor", number_value(thickness)}});
   }
   const Attribute* opacity = find(mesh, Channel::opacity);
   if (!opacity || std::ranges::min(opacity->values) >= 1) return;
@@ -100,10 +116,15 @@ TriangleMesh without_told_channels(TriangleMesh mesh) {
   return mesh;
 }
 
-void erase_imaged(std::vector<Attribute>& attributes) {
-  std::erase_if(attributes, [](const Attribute& a) {
+void erase_imaged(std::vector<Attribute>& attributes, const TextureMaps& maps) {
+  const std::map<Channel, bool> has_image = {
+      {Channel::height, maps.normal != nullptr},       {Channel::roughness, maps.roughness != nullptr},
+      {Channel::metalness, maps.metalness != nullptr}, {Channel::opacity, maps.opacity != nullptr},
+      {Channel::emission, maps.emission != nullptr},   {Channel::transmission, maps.transmission != nullptr},
+      {Channel::thickness, maps.thickness != nullptr}};
+  std::erase_if(attributes, [&](const Attribute& a) {
     const std::optional<Channel> channel = channel_of(a);
-    return a.name == "color" || (channel && channel != Channel::transmission && channel != Channel::thickness);
+    return a.name == "color" || (channel && has_image.at(*channel));
   });
 }
 

@@ -1,5 +1,6 @@
 #include "io/gltf_compressor.h"
 
+#include "io/gltf_chunks.h"
 #include "pelage/error.h"
 
 #ifdef PELAGE_HAS_MESHOPTIMIZER
@@ -12,7 +13,6 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -21,50 +21,12 @@ namespace pelage {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = GltfText;
 using Indices = std::vector<std::uint32_t>;
 
 constexpr const char* packing = "EXT_meshopt_compression";
-constexpr int byte_header = 12, chunk_header = 8;
 constexpr int type_short = 5122, type_ushort = 5123, type_float = 5126, target_vertices = 34962, target_indices = 34963;
 constexpr int fallback_buffer = 1;  ///< which nobody needs: viewers without the extension refuse the file
-
-std::uint32_t number_at(const std::string& bytes, std::size_t at) {
-  std::uint32_t n;
-  std::memcpy(&n, bytes.data() + at, sizeof n);
-  return n;
-}
-
-void append_number(std::string& bytes, std::size_t n) {
-  const auto number = static_cast<std::uint32_t>(n);
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
-}
-
-void fill_up(std::string& bytes, char with) { bytes.resize((bytes.size() + 3) / 4 * 4, with); }
-
-/// JSON and binary chunk.
-struct Glb {
-  Json json;
-  std::string bytes;
-};
-
-Glb parse(const std::string& glb) {
-  const std::size_t length = number_at(glb, byte_header), binary = byte_header + chunk_header + length;
-  return {Json::parse(glb.substr(byte_header + chunk_header, length)), glb.substr(binary + chunk_header)};
-}
-
-std::string written(const Glb& glb) {
-  std::string json = glb.json.dump(), bytes = glb.bytes;
-  fill_up(json, ' ');
-  fill_up(bytes, '\0');
-  std::string file = "glTF";
-  append_number(file, 2);
-  append_number(file, byte_header + 2 * chunk_header + json.size() + bytes.size());
-  append_number(file, json.size());
-  file += "JSON" + json;
-  append_number(file, bytes.size());
-  return file.append("BIN", 4) + bytes;
-}
 
 std::size_t components_of(const std::string& type) {
   return type == "SCALAR" ? 1 : static_cast<std::size_t>(type.back() - '0');
@@ -80,9 +42,9 @@ struct Packed {
 
 class Compressor {
  public:
-  explicit Compressor(const Glb& glb) : from_(glb), to_{glb.json, {}} {}
+  explicit Compressor(const GlbChunks& glb) : from_(glb), to_{glb.json, {}} {}
 
-  Glb run() {
+  GlbChunks run() {
     to_.json["bufferViews"] = Json::array();
     for (std::size_t i = 0; i < from_.json["meshes"].size(); ++i) pack_mesh(i);
     if (from_.json.contains("images"))
@@ -143,7 +105,7 @@ class Compressor {
     view["target"] = vertices ? target_vertices : target_indices;
     view["extensions"][packing] = std::move(extension);
     to_.bytes.append(reinterpret_cast<const char*>(packed.data()), packed.size());
-    fill_up(to_.bytes, '\0');
+    fill_to_whole(to_.bytes, '\0');
     unpacked_ += (count * stride + 3) / 4 * 4;
     to_.json["bufferViews"].push_back(std::move(view));
     return to_.json["bufferViews"].size() - 1;
@@ -247,13 +209,13 @@ class Compressor {
     const std::size_t offset = view.value("byteOffset", std::size_t{0}), length = view["byteLength"];
     view["byteOffset"] = to_.bytes.size();
     to_.bytes += from_.bytes.substr(offset, length);
-    fill_up(to_.bytes, '\0');
+    fill_to_whole(to_.bytes, '\0');
     to_.json["bufferViews"].push_back(std::move(view));
     return to_.json["bufferViews"].size() - 1;
   }
 
-  const Glb& from_;
-  Glb to_;
+  const GlbChunks& from_;
+  GlbChunks to_;
   std::size_t unpacked_ = 0;    ///< bytes of the buffer that nobody needs
   std::set<std::size_t> done_;  ///< accessors
 };
@@ -261,8 +223,8 @@ class Compressor {
 }  // namespace
 
 std::string compress_glb(const std::string& glb) {
-  const Glb whole = parse(glb);
-  return written(Compressor(whole).run());
+  const GlbChunks whole = glb_chunks(glb);
+  return glb_of(Compressor(whole).run());
 }
 
 }  // namespace pelage

@@ -7,10 +7,11 @@
 namespace pelage {
 
 /// The images of a material by what they show: "color", "normal" (in tangent space), "roughness", "metalness",
-/// "opacity", "emission".
+/// "opacity", "emission"; others it cannot name.
 using MtlMaps = std::map<std::string, std::string>;
 
 /// The text of one material of a library, with the statements of the common extension for physically based materials.
-std::string mtl_text(const std::string& material, const MtlMaps& maps);
+/// `emission`: the light of white texels.
+std::string mtl_text(const std::string& material, const MtlMaps& maps, double emission);
 
 }  // namespace pelage

@@ -270,9 +270,9 @@ void require_numbers(const TriangleMesh& mesh, const std::string& path) {
 
 }  // namespace
 
-ShapeFile read_polygons(const std::string& path) {
-  const Format& format = format_of(path);
-  RawShape raw = read_raw(format, read_file(path), path);
+namespace {
+
+ShapeFile unmended(RawShape raw, const std::string& path) {
   ShapeFile file;
   file.findings = std::move(raw.findings);
   file.up = raw.up;
@@ -293,6 +293,31 @@ ShapeFile read_polygons(const std::string& path) {
   std::erase_if(file.mesh.attributes, [](const Attribute& a) { return a.name == file_corner; });
   file.source = std::move(source);
   return file;
+}
+
+}  // namespace
+
+ShapeFile read_polygons(const std::string& path) {
+  return unmended(read_raw(format_of(path), read_file(path), path), path);
+}
+
+ShapeFile with_attribute(ShapeFile file, Attribute at_corners) {
+  if (!file.source) {
+    file.mesh.set(std::move(at_corners));
+    return file;
+  }
+  RawShape raw{file.source->polygons, {}, {}, {}, file.up, file.name, file.mesh.metres_per_unit};
+  raw.mesh.set(std::move(at_corners));
+  const auto again = [&] {
+    try {
+      return mended(raw, file.name);
+    } catch (const Error&) {  // as those who take polygons that do not fit together have read it
+      return unmended(raw, file.name);
+    }
+  };
+  ShapeFile result = again();
+  result.findings = std::move(file.findings);
+  return result;
 }
 
 ShapeFile check_shape(TriangleMesh mesh) {

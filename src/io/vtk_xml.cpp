@@ -6,21 +6,11 @@
 
 #include "base/srgb.h"
 #include "io/bytes.h"
+#include "io/xml_text.h"
 
 namespace pelage {
 
 namespace {
-
-std::string escape_xml(const std::string& text) {
-  std::string safe;
-  for (char c : text) {
-    if (c == '&' || c == '<' || c == '>' || c == '"')
-      safe += "&#" + std::to_string(static_cast<int>(c)) + ";";
-    else
-      safe += static_cast<unsigned char>(c) < ' ' ? '_' : c;
-  }
-  return safe;
-}
 
 std::string pack_color(const Attribute& color) {
   std::string bytes;

@@ -19,6 +19,7 @@
 #include "io/off_writer.h"
 #include "io/ply_writer.h"
 #include "io/stl_writer.h"
+#include "io/three_mf_writer.h"
 #include "io/vtp_writer.h"
 #include "pelage/io.h"
 #include "shape/triangulate.h"
@@ -80,6 +81,12 @@ Keeping glb_keeps(const Attribute& a) {
 
 Keeping vtp_keeps(const Attribute& a) { return ply_keeps(a); }
 
+Keeping three_mf_keeps(const Attribute& a) { return a.name == "color" && is_color(a) ? as_bytes(a) : Keeping::lost; }
+
+std::string encode_named_three_mf(const TriangleMesh& mesh, const SaveOptions& options) {
+  return encode_three_mf(mesh, options.name, options.up);
+}
+
 std::string encode_named_glb(const TriangleMesh& mesh, const SaveOptions& options) {
   const std::string glb = encode_glb(mesh, {options.name, options.up, options.textures, options.repeat});
   return options.compress ? compress_glb(glb) : glb;
@@ -90,8 +97,10 @@ TriangleMesh triangles_of(const PolygonMesh& mesh) {
   return triangulate(mesh, ignored).mesh;
 }
 
-std::string encode_triangulated_glb(const PolygonMesh& mesh, const SaveOptions& options) {
-  return encode_named_glb(triangles_of(mesh), options);
+/// Formats without polygons get triangles.
+template <std::string (*encode)(const TriangleMesh&, const SaveOptions&)>
+std::string triangulated(const PolygonMesh& mesh, const SaveOptions& options) {
+  return encode(triangles_of(mesh), options);
 }
 
 /// Formats that neither name the mesh nor prescribe an axis.
@@ -100,7 +109,6 @@ std::string plain(const Mesh& mesh, const SaveOptions&) {
   return encode(mesh);
 }
 
-/// Formats without polygons get triangles.
 template <std::string (*encode)(const TriangleMesh&)>
 std::string of_triangles(const PolygonMesh& mesh, const SaveOptions&) {
   return encode(triangles_of(mesh));
@@ -122,7 +130,8 @@ struct Writer {
 };
 
 constexpr Writer writers[] = {
-    {".glb", encode_named_glb, encode_triangulated_glb, glb_keeps, "", false, true},
+    {".3mf", encode_named_three_mf, triangulated<encode_named_three_mf>, three_mf_keeps, "", false, true},
+    {".glb", encode_named_glb, triangulated<encode_named_glb>, glb_keeps, "", false, true},
     {".obj", of_polygons<encode_obj>, plain<PolygonMesh, encode_obj>, obj_keeps, "mtllib", true, true},
     {".off", of_polygons<encode_off>, plain<PolygonMesh, encode_off>, off_keeps, "", true, true},
     {".ply", plain<TriangleMesh, encode_ply>, plain<PolygonMesh, encode_ply>, ply_keeps, "TextureFile", true, true},
@@ -201,7 +210,7 @@ std::vector<std::string> losses_of(const Writer& writer, const std::vector<Point
       attributes, [&](const Attribute& a) { return a.name == "color" && writer.keeps(a) == Keeping::lost; });
   if (!lost.empty())
     result.push_back(upper_name(writer) + " cannot hold " + listed(lost) + ": left out" +
-                     (bare ? "; GLB, PLY, OBJ, VTP and OFF hold colours" : ""));
+                     (bare ? "; GLB, PLY, OBJ, VTP, OFF and 3MF hold colours" : ""));
   if (std::string(writer.extension) == ".glb")
     for (const Attribute& a : attributes)
       if (const std::string unseen = unseen_in_gltf(a); !unseen.empty()) hidden.push_back(unseen);

@@ -28,6 +28,14 @@ constexpr std::array<std::array<double, 2>, 4> around = {{{-0.25, -0.25}, {0.25,
 /// their mean over a texel differs from that in its middle.
 constexpr int uneven = 2;
 
+/// Viewers interpolate between texels, by which a hill whose second difference is d loses d/8 half way between two of
+/// them, and the mean of four places has lost d/32 of it before. Texels that are higher by 3/32 d share the loss
+/// evenly: d/16 too high at texels, d/16 too low between them, which is the least that any texels can do.
+constexpr double lost_height = 3.0 / 32;
+
+/// Of that, so that sharp edges, which no texels show, get no seam that is seen [linear light].
+constexpr double most_raised = 8.0 / 255;
+
 // --- normals -------------------------------------------------------------------------------------------
 
 template <class Get>
@@ -89,12 +97,26 @@ ShadingFrames::ShadingFrames(TriangleMesh mesh) {
 
 namespace {
 
+/// Linear light of bytes that are sRGB.
+std::array<double, 256> light_of_bytes() {
+  std::array<double, 256> light;
+  for (std::size_t byte = 0; byte < light.size(); ++byte)
+    light[byte] = linear_from_srgb(static_cast<double>(byte) / 255);
+  return light;
+}
+
 /// One making of the images of a tile.
 class TileBaker {
  public:
-  TileBaker(const CoatSampler& coat, const Palette& palette, const UvLayout& layout, const ShadingFrames* frames,
-            std::size_t tile)
-      : coat_(coat), palette_(palette), layout_(layout), frames_(frames), number_(tile), size_(layout.size()) {
+  TileBaker(const CoatSampler& coat, const Palette& palette, const ChannelScales& scales, const UvLayout& layout,
+            const ShadingFrames* frames, std::size_t tile)
+      : coat_(coat),
+        palette_(palette),
+        scales_(scales),
+        layout_(layout),
+        frames_(frames),
+        number_(tile),
+        size_(layout.size()) {
     const std::size_t texels = at(size_) * at(size_);
     tile_.number = layout.tiles()[tile];
     const auto pixels = [&](int channels) {
@@ -104,20 +126,18 @@ class TileBaker {
     tile_.height.resize(texels);
     if (frames) tile_.normal = pixels(3);
     if (palette.paint.channels.contains(Channel::emission)) tile_.emission = pixels(3);
-    for (const Channel channel : {Channel::roughness, Channel::metalness, Channel::opacity})
+    for (const Channel channel :
+         {Channel::roughness, Channel::metalness, Channel::opacity, Channel::transmission, Channel::thickness})
       if (palette.paint.channels.contains(channel)) tile_.greys[channel] = pixels(1);
     shown_.resize(texels);
   }
 
   BakedTile make(std::vector<char>& hidden) {
     const auto all = [](const UvLayout::Texel&) { return true; };
-    if (frames_) {
-      each_part(all, around, hidden);
-    } else {
-      each_part(all, middle, hidden);
-      const std::vector<char> bent = uneven_texels();
-      each_part([&](const UvLayout::Texel& t) { return bent[texel_of(t)] != 0; }, around, hidden);
-    }
+    each_part(all, middle, hidden);
+    const std::vector<char> bent = uneven_texels();
+    in_middles_ = tile_.color.bytes;
+    each_part([&](const UvLayout::Texel& t) { return frames_ || bent[texel_of(t)] != 0; }, around, hidden);
     fill_between();
     return std::move(tile_);
   }
@@ -181,10 +201,10 @@ class TileBaker {
       const std::size_t texel = texel_of(texels[i]);
       shown_[texel] = 1;
       for (std::size_t c = 0; c < 3; ++c)
-        tile_.color.bytes[3 * texel + c] =
-            srgb_(static_cast<float>(mean_of(n, i, [&](std::size_t k) { return colors[3 * k + c]; })));
+        tile_.color.bytes[3 * texel + c] = srgb_(static_cast<float>(
+            mean_of(n, i, [&](std::size_t k) { return colors[3 * k + c]; }) + (n > 1 ? raised(texel, c) : 0)));
       tile_.height[texel] = static_cast<float>(mean_of(n, i, [&](std::size_t k) { return heights[k]; }));
-      if (frames_)
+      if (frames_ && n > 1)
         set_normal(texel, texels[i], std::span(samples.position).subspan(n * i, n),
                    std::span(heights).subspan(n * i, n));
     }
@@ -196,16 +216,31 @@ class TileBaker {
                      const std::vector<double>& colors) {
     for (auto& [channel, pixels] : tile_.greys) {
       const std::vector<double> values = channel_values(samples, palette_.paint, channel);
+      const double white = channel == Channel::thickness ? scales_.deepest : 1;
       for (std::size_t i = 0; i < texels.size(); ++i)
-        pixels.bytes[texel_of(texels[i])] =
-            static_cast<std::uint8_t>(std::lround(255 * mean_of(n, i, [&](std::size_t k) { return values[k]; })));
+        pixels.bytes[texel_of(texels[i])] = static_cast<std::uint8_t>(
+            std::lround(255 * std::min(mean_of(n, i, [&](std::size_t k) { return values[k]; }) / white, 1.0)));
     }
     if (tile_.emission.bytes.empty()) return;
     const std::vector<double> light = channel_values(samples, palette_.paint, Channel::emission);
     for (std::size_t i = 0; i < texels.size(); ++i)
       for (std::size_t c = 0; c < 3; ++c)
-        tile_.emission.bytes[3 * texel_of(texels[i]) + c] =
-            srgb_(static_cast<float>(mean_of(n, i, [&](std::size_t k) { return light[k] * colors[3 * k + c]; })));
+        tile_.emission.bytes[3 * texel_of(texels[i]) + c] = srgb_(static_cast<float>(
+            mean_of(n, i, [&](std::size_t k) { return light[k] * colors[3 * k + c]; }) / scales_.brightest));
+  }
+
+  /// What interpolation will take away from a texel's channel of the colour, and is therefore added.
+  double raised(std::size_t texel, std::size_t channel) const {
+    const auto light = [&](std::size_t t) { return light_of_byte_[in_middles_[3 * t + channel]]; };
+    const auto second_difference = [&](std::size_t step) {
+      if (!shown_[texel - step] || !shown_[texel + step]) return 0.0;
+      return light(texel - step) - 2 * light(texel) + light(texel + step);
+    };
+    const std::size_t n = at(size_), x = texel % n, y = texel / n;
+    double sum = 0;
+    if (x > 0 && x + 1 < n) sum += second_difference(1);
+    if (y > 0 && y + 1 < n) sum += second_difference(n);
+    return std::clamp(-lost_height * sum, -most_raised, most_raised);
   }
 
   std::vector<double> heights_of(const CoatSamples& samples) const {
@@ -245,14 +280,11 @@ class TileBaker {
 
   /// Of the texels that show something.
   std::array<double, 4> mean_color_and_height() const {
-    std::array<double, 256> light;
-    for (std::size_t byte = 0; byte < light.size(); ++byte)
-      light[byte] = linear_from_srgb(static_cast<double>(byte) / 255);
     std::array<double, 4> sum{};
     double count = 0;
     for (std::size_t texel = 0; texel < shown_.size(); ++texel) {
       if (!shown_[texel]) continue;
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += light[tile_.color.bytes[3 * texel + c]];
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += light_of_byte_[tile_.color.bytes[3 * texel + c]];
       sum[3] += tile_.height[texel];
       ++count;
     }
@@ -277,22 +309,40 @@ class TileBaker {
 
   const CoatSampler& coat_;
   const Palette& palette_;
+  const ChannelScales& scales_;
   const UvLayout& layout_;
   const ShadingFrames* frames_;
   const std::size_t number_;
   const int size_;
   const SrgbBytes srgb_;
   std::vector<char> shown_;  ///< per texel
+  const std::array<double, 256> light_of_byte_ = light_of_bytes();
+  std::vector<std::uint8_t> in_middles_;  ///< colours there, before others are there
   BakedTile tile_;
 };
+
+ChannelScales scales_of(const CoatSamples& samples, const Palette& palette) {
+  ChannelScales scales;
+  if (palette.paint.channels.contains(Channel::emission)) {
+    const std::vector<double> light = channel_values(samples, palette.paint, Channel::emission),
+                              colors = paint(samples, palette);
+    for (std::size_t i = 0; i < colors.size(); ++i)
+      scales.brightest = std::max(scales.brightest, light[i / 3] * colors[i]);
+  }
+  if (palette.paint.channels.contains(Channel::thickness))
+    if (const double most = std::ranges::max(channel_values(samples, palette.paint, Channel::thickness)); most > 0)
+      scales.deepest = most;
+  return scales;
+}
 
 }  // namespace
 
 BakedCoat bake(const CoatSampler& coat, const Palette& palette, const UvLayout& layout, const ShadingFrames* frames) {
   std::vector<char> hidden(coat.triangles().size(), 0);
   BakedCoat baked;
+  baked.scales = scales_of(coat.tessellation().samples, palette);
   for (std::size_t tile = 0; tile < layout.tiles().size(); ++tile)
-    baked.tiles.push_back(TileBaker(coat, palette, layout, frames, tile).make(hidden));
+    baked.tiles.push_back(TileBaker(coat, palette, baked.scales, layout, frames, tile).make(hidden));
   baked.hidden.count = static_cast<std::size_t>(std::ranges::count(hidden, 1));
   baked.hidden.first = static_cast<Index>(std::ranges::find(hidden, 1) - hidden.begin());
   return baked;

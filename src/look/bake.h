@@ -1,6 +1,7 @@
 #pragma once
 // A coat as images on the uv of its mesh. At every texel the coat is evaluated on the surface: in its middle and, where
-// colours bend or there are normals, at four places around it.
+// colours bend or there are normals, at four places around it. Colours of texels are those between which bilinear
+// interpolation, in linear light, shows the coat best.
 
 #include <map>
 
@@ -23,13 +24,20 @@ struct BakedTile {
   int number = 1001;
   Pixels color;                       ///< sRGB
   Pixels normal;                      ///< empty without frames
-  Pixels emission;                    ///< sRGB; empty where the paint has none
-  std::map<Channel, Pixels> greys{};  ///< roughness, metalness and opacity, where the paint has them
+  Pixels emission;                    ///< sRGB of a share of the brightest; empty where the paint has none
+  std::map<Channel, Pixels> greys{};  ///< the other channels that the paint has; thickness as a share of the deepest
   std::vector<float> height;          ///< [world units] of the paint, or else the values of the shown species
+};
+
+/// What white is in images of channels without an upper bound.
+struct ChannelScales {
+  double brightest = 1;  ///< emission times colour; at least 1
+  double deepest = 1;    ///< thickness [world units]
 };
 
 struct BakedCoat {
   std::vector<BakedTile> tiles;  ///< those of the layout
+  ChannelScales scales{};
   UvNote hidden{UvNote::Kind::overlapping};
 };
 

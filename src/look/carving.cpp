@@ -7,6 +7,7 @@
 #include "base/box.h"
 #include "base/number.h"
 #include "base/suggest.h"
+#include "look/comparison.h"
 #include "look/solid_tessellation.h"
 #include "pelage/error.h"
 #include "shape/grid.h"
@@ -19,20 +20,6 @@ namespace pelage {
 namespace {
 
 // --- cuts of space ---
-
-/// Two formulas with what stands between them: "<", ">" or "=", the first character of it.
-struct Comparison {
-  std::string left, right;
-  char sign = 0;
-};
-
-std::optional<Comparison> compared(const std::string& text) {
-  const std::size_t at = text.find_first_of("<>=");
-  if (at == std::string::npos || at == 0) return {};
-  const std::size_t behind = at + (text.substr(at + 1).starts_with('=') ? 2 : 1);
-  if (behind >= text.size() || text.find_first_of("<>=", behind) != std::string::npos) return {};
-  return Comparison{text.substr(0, at), text.substr(behind), text[at]};
-}
 
 /// The direction that pictures look from, between the axes: toward +x and up, and along the other one to +z, or -y.
 Point viewer(UpAxis up) { return up == UpAxis::y ? Point{1, 1, 1} : Point{1, -1, 1}; }
@@ -50,7 +37,7 @@ PlaceFormula formula_of(const std::string& text, const std::string& formula) {
 }
 
 PlaceFormula kept_side(const std::string& text, const std::string& condition, UpAxis up) {
-  const std::optional<Comparison> c = compared(condition);
+  const std::optional<ComparedFormulas> c = compared(condition);
   if (!c)
     throw Error(Fault::usage, "--cut " + text +
                                   ": expected what is cut away, for example \"x<0\", \"x+y>1\", \"x>0 and y>0\" or "
@@ -189,7 +176,7 @@ std::vector<Cut> SpaceCut::at(const std::vector<Point>& nodes) const {
 }
 
 LevelPart parse_level_part(const std::string& text) {
-  const std::optional<Comparison> c = compared(text);
+  const std::optional<ComparedFormulas> c = compared(text);
   std::string species = c ? c->left : text;
   std::erase(species, ' ');
   if (species.empty() || species.find_first_of("<>=") != std::string::npos)

@@ -20,24 +20,12 @@ bool reads(const Paint& paint, std::size_t species) {
          });
 }
 
-/// Samples of a part of a shape.
-CoatSamples part_of(const CoatSamples& whole) {
-  CoatSamples part;
-  part.length_unit = whole.length_unit;
-  part.wavelength = whole.wavelength;
-  part.origin = whole.origin;
-  part.period = whole.period;
-  part.seed = whole.seed;
-  part.box = box_of(whole.position);
-  return part;
-}
-
 }  // namespace
 
 CoatSampler::CoatSampler(const CoatFields& fields, const Tessellation& tessellation, const Paint& paint)
     : fields_(fields),
       t_(tessellation),
-      shared_(part_of(tessellation.samples)),
+      shared_(without_samples(tessellation.samples)),
       smooth_(!fields.nodes && fields.method->smooth) {
   for (std::size_t i = 0; i < fields.species.size(); ++i) needed_.push_back(reads(paint, i));
   for (std::size_t faces = triangles().size(); faces < t_.triangles.size(); faces *= 4) ++levels_;
@@ -73,6 +61,11 @@ CoatSampler::Spot CoatSampler::spot_of(MeshPlace place) const {
     beyond_w *= factor;
   }
   return {at(fine.face), fine.v, fine.w, beyond_v, beyond_w};
+}
+
+MeshPlace CoatSampler::on_tessellation(const MeshPlace& place) const {
+  const Spot spot = spot_of(place);
+  return {static_cast<Index>(spot.face), spot.v, spot.w};
 }
 
 Point CoatSampler::position(const Spot& s) const {

@@ -20,6 +20,9 @@ class CoatSampler {
 
   /// The triangles on which places are counted: those of the shape.
   const std::vector<Triangle>& triangles() const;
+  const Tessellation& tessellation() const { return t_; }
+  /// The place on it, the nearest one of the triangle where that goes on beyond its border.
+  MeshPlace on_tessellation(const MeshPlace& place) const;
   /// On the surface, at these places of the shape's triangles. Fields are what they are on their own mesh, there where
   /// the surface lies; beyond a triangle its plane goes on, to the place of the fields' mesh that is nearest, or, where
   /// they have none, only to the border. Thread-safe.

@@ -6,7 +6,6 @@
 
 #include "look/canvas.h"
 #include "look/text.h"
-#include "look/ticks.h"
 
 namespace pelage {
 
@@ -14,7 +13,7 @@ namespace {
 
 constexpr double title_size = 44, text_size = 34, small_size = 28;
 constexpr int gap = 6;  // pixels between tiles
-constexpr int left_margin = 190, right_margin = 50, top_margin = 150, bottom_margin = 130;
+constexpr int least_left_margin = 190, right_margin = 50, top_margin = 150, bottom_margin = 130;
 
 const Color ink = {0.012, 0.012, 0.014}, pale_ink = {0.12, 0.12, 0.13}, paper = {1, 1, 1}, plain = {0.86, 0.86, 0.85};
 
@@ -26,10 +25,11 @@ int label_stride(const std::vector<std::string>& labels, double pitch, bool acro
   return std::max(1, static_cast<int>(std::ceil(needed / pitch)));
 }
 
-std::vector<std::string> labels_of(const std::vector<double>& values) {
-  std::vector<std::string> labels;
-  for (const double v : values) labels.push_back(label_of(v));
-  return labels;
+/// Room for the words at the rows.
+int left_margin_of(const ContactSheet& sheet) {
+  double widest = 0;
+  for (const std::string& label : sheet.y) widest = std::max(widest, text_width(label, small_size));
+  return std::max(least_left_margin, static_cast<int>(std::ceil(widest)) + 90);
 }
 
 class SheetPainter {
@@ -39,7 +39,8 @@ class SheetPainter {
         columns_(static_cast<int>(sheet.x.size())),
         rows_(static_cast<int>(sheet.y.size())),
         pitch_(sheet.tile + gap),
-        canvas_(left_margin + columns_ * pitch_ - gap + right_margin, top_margin + rows_ * pitch_ - gap + bottom_margin,
+        left_(left_margin_of(sheet)),
+        canvas_(left_ + columns_ * pitch_ - gap + right_margin, top_margin + rows_ * pitch_ - gap + bottom_margin,
                 paper) {}
 
   Image paint() {
@@ -51,7 +52,7 @@ class SheetPainter {
   }
 
  private:
-  int left(int i) const { return left_margin + i * pitch_; }
+  int left(int i) const { return left_ + i * pitch_; }
   int top(int j) const { return top_margin + (rows_ - 1 - j) * pitch_; }
 
   void paint_cell(int i, int j) {
@@ -75,29 +76,28 @@ class SheetPainter {
   }
 
   void paint_words() {
-    const double room = canvas_.width() - left_margin - right_margin;
-    canvas_.text(fitted_text(sheet_.title, title_size, room), {left_margin, 62}, {title_size, ink});
-    canvas_.text(fitted_text(sheet_.subtitle, small_size, room), {left_margin, 110}, {small_size, pale_ink});
-    const double middle_x = left_margin + (columns_ * pitch_ - gap) / 2.0;
+    const double room = canvas_.width() - left_ - right_margin;
+    canvas_.text(fitted_text(sheet_.title, title_size, room), {double(left_), 62}, {title_size, ink});
+    canvas_.text(fitted_text(sheet_.subtitle, small_size, room), {double(left_), 110}, {small_size, pale_ink});
+    const double middle_x = left_ + (columns_ * pitch_ - gap) / 2.0;
     const double middle_y = top_margin + (rows_ * pitch_ - gap) / 2.0;
     canvas_.text(sheet_.x_label, {middle_x, canvas_.height() - 34.0}, {text_size, ink, Align::centre});
     canvas_.text(sheet_.y_label, {52, middle_y}, {text_size, ink, Align::centre, true});
   }
 
   void paint_labels() {
-    const auto across = labels_of(sheet_.x), upwards = labels_of(sheet_.y);
+    const auto &across = sheet_.x, &upwards = sheet_.y;
     for (int i = 0; i < columns_; i += label_stride(across, pitch_, true))
       canvas_.text(across[static_cast<std::size_t>(i)],
                    {left(i) + sheet_.tile / 2.0, top(0) + sheet_.tile + 1.4 * small_size},
                    {small_size, ink, Align::centre});
     for (int j = 0; j < rows_; j += label_stride(upwards, pitch_, false))
-      canvas_.text(upwards[static_cast<std::size_t>(j)],
-                   {left_margin - 16.0, top(j) + sheet_.tile / 2.0 + small_size / 3.4},
+      canvas_.text(upwards[static_cast<std::size_t>(j)], {left_ - 16.0, top(j) + sheet_.tile / 2.0 + small_size / 3.4},
                    {small_size, ink, Align::right});
   }
 
   const ContactSheet& sheet_;
-  const int columns_, rows_, pitch_;
+  const int columns_, rows_, pitch_, left_;
   Canvas canvas_;
 };
 

@@ -18,9 +18,9 @@ struct SheetCell {
 struct ContactSheet {
   std::string title, subtitle;
   std::string x_label, y_label;
-  std::vector<double> x, y;      ///< values of the columns and rows
-  std::vector<SheetCell> cells;  ///< x runs fastest; the first row is the lowest
-  int tile = 160;                ///< pixels
+  std::vector<std::string> x, y;  ///< words at the columns and rows
+  std::vector<SheetCell> cells;   ///< x runs fastest; the first row is the lowest
+  int tile = 160;                 ///< pixels
 };
 
 /// The size of tiles that makes a sheet of so many columns and rows about as large as a page [pixels].

@@ -35,14 +35,6 @@ std::size_t shown_species(const std::vector<std::string>& species, const Look& l
   return static_cast<std::size_t>(found - species.begin());
 }
 
-/// Formulas know the species of the last stage by their own names.
-PlaceFormula layer_formula(const Given<std::string>& text, const std::vector<std::string>& species) {
-  std::vector<std::string> own;
-  for (const std::string& name : species)
-    if (name.find('.') == std::string::npos) own.push_back(name);
-  return PlaceFormula({text.value, text.where}, own);
-}
-
 PaintLayer resolve_layer(const Layer& layer, const std::vector<std::string>& species) {
   PaintLayer result;
   if (layer.color) result.color = located(*layer.color, parse_hex_color);
@@ -115,18 +107,31 @@ void paint_layer(const PaintLayer& layer, const Places& places, std::uint64_t se
   });
 }
 
-/// Before they are clamped, lengths in sizes of the pattern.
-std::vector<double> raw_channel(const CoatSamples& samples, const Paint& paint, Channel channel) {
-  const ChannelFormula& formula = paint.channels.at(channel);
+std::vector<double> finite_values(const CoatSamples& samples, const Paint& paint, const ChannelFormula& formula,
+                                  const std::string& what) {
   std::vector<double> values = formula.value.at(SamplePlaces(samples, paint).places, samples.seed);
   for (const double x : values)
-    if (!std::isfinite(x))
-      throw Error(Fault::numerics, "the " + std::string(kind_of(channel).name) + " is " + number(x) + " somewhere",
-                  formula.where);
+    if (!std::isfinite(x)) throw Error(Fault::numerics, what + " is " + number(x) + " somewhere", formula.where);
   return values;
 }
 
+/// Before they are clamped, lengths in sizes of the pattern.
+std::vector<double> raw_channel(const CoatSamples& samples, const Paint& paint, Channel channel) {
+  return finite_values(samples, paint, paint.channels.at(channel), "the " + std::string(kind_of(channel).name));
+}
+
 }  // namespace
+
+PlaceFormula layer_formula(const Given<std::string>& text, const std::vector<std::string>& species) {
+  std::vector<std::string> own;
+  for (const std::string& name : species)
+    if (name.find('.') == std::string::npos) own.push_back(name);
+  return PlaceFormula({text.value, text.where}, own);
+}
+
+std::vector<double> formula_values(const PlaceFormula& formula, const CoatSamples& samples, const Paint& paint) {
+  return formula.at(SamplePlaces(samples, paint).places, samples.seed);
+}
 
 std::vector<Symbol> Paint::symbols() const {
   std::vector<Symbol> all;
@@ -137,6 +142,7 @@ std::vector<Symbol> Paint::symbols() const {
     for (const auto* formula : {&layer.value, &layer.opacity})
       if (*formula) add(**formula);
   for (const auto& [channel, formula] : channels) add(formula.value);
+  if (holes) add(holes->value);
   return all;
 }
 
@@ -176,6 +182,17 @@ std::vector<double> channel_values(const CoatSamples& samples, const Paint& pain
   std::vector<double> values = raw_channel(samples, paint, channel);
   for (double& x : values) x = unit * std::clamp(x, kind.low, kind.high);
   return values;
+}
+
+std::vector<double> hole_values(const CoatSamples& samples, const Paint& paint) {
+  return finite_values(samples, paint, *paint.holes, "what the condition compares");
+}
+
+ChannelFormula condition_on_coat(const Given<std::string>& text, const std::vector<std::string>& species) {
+  const std::optional<PlaceFormula> margin = layer_formula(text, species).margin();
+  if (!margin)
+    throw Error(Fault::usage, "expected a condition, for example \"" + species.back() + " < 0.5\"", text.where);
+  return {*margin, text.where};
 }
 
 std::vector<std::string> clamped_channels(const CoatSamples& samples, const Paint& paint) {

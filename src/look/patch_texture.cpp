@@ -169,18 +169,6 @@ void turn_to_outside(const Atlas::Patch& patch, CoatSamples& s) {
     }
 }
 
-/// What all samples share.
-CoatSamples empty_like(const CoatSamples& s) {
-  CoatSamples empty;
-  empty.length_unit = s.length_unit;
-  empty.wavelength = s.wavelength;
-  empty.origin = s.origin;
-  empty.period = s.period;
-  empty.seed = s.seed;
-  empty.box = s.box ? s.box : box_of(s.position);
-  return empty;
-}
-
 std::vector<Point> on_patch(const Atlas::Patch& patch, const std::vector<Point>& values) {
   std::vector<Point> result;
   for (const std::int32_t n : patch.node) result.push_back(values[at(n)]);
@@ -188,7 +176,7 @@ std::vector<Point> on_patch(const Atlas::Patch& patch, const std::vector<Point>&
 }
 
 CoatSamples on_patch(const Atlas& atlas, const Atlas::Patch& patch, const CoatSamples& nodes) {
-  CoatSamples s = empty_like(nodes);
+  CoatSamples s = without_samples(nodes);
   s.position = on_patch(patch, nodes.position);
   s.normal = on_patch(patch, nodes.normal);
   if (!nodes.curvature.k1.empty())
@@ -200,7 +188,7 @@ CoatSamples on_patch(const Atlas& atlas, const Atlas::Patch& patch, const CoatSa
 }
 
 CoatSamples in_row(const CoatSamples& nodes, const RowOfTexels& row) {
-  CoatSamples s = empty_like(nodes);
+  CoatSamples s = without_samples(nodes);
   s.position = row.points(nodes.position);
   s.normal = row.points(nodes.normal);
   for (Point& n : s.normal) n = unit(n);

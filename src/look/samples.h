@@ -27,4 +27,16 @@ struct CoatSamples {
   std::size_t size() const { return position.size(); }
 };
 
+/// What all samples of a coat share, and none of them.
+inline CoatSamples without_samples(const CoatSamples& coat) {
+  CoatSamples shared;
+  shared.length_unit = coat.length_unit;
+  shared.wavelength = coat.wavelength;
+  shared.origin = coat.origin;
+  shared.period = coat.period;
+  shared.seed = coat.seed;
+  shared.box = coat.box ? coat.box : box_of(coat.position);
+  return shared;
+}
+
 }  // namespace pelage

@@ -196,7 +196,7 @@ TessellationRequest tessellation_request(const Look& look, const Paint& paint) {
       std::ranges::any_of(paint.symbols(), [](const Symbol& s) { return s.kind == Symbol::Kind::curvature; });
   TessellationRequest request = tessellation_request(look);
   request.curvature = curvature;
-  request.attributes = !paint.layers.empty() || !paint.channels.empty();
+  request.attributes = !paint.layers.empty() || !paint.channels.empty() || paint.holes;
   return request;
 }
 

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <tuple>
 #include <utility>
+
+#include "shape/vectors.h"
 
 namespace pelage {
 
@@ -249,6 +252,45 @@ std::vector<UvLayout::Texel> UvLayout::texels(std::size_t tile, int first_row, i
       result.push_back(
           {static_cast<int>(i % at(size_)), first_row + static_cast<int>(i / at(size_)), cell.shows, cell.square == 0});
   return result;
+}
+
+// --- sizes ---------------------------------------------------------------------------------------------
+
+namespace {
+
+/// The largest singular value of the map from uv to the surface, and the area there.
+struct Stretch {
+  double longest, area;
+};
+Stretch stretch_of(const std::array<Point, 3>& p, const Corners2& uv) {
+  const Point b = difference(p[1], p[0]), c = difference(p[2], p[0]);
+  const double det = twice_area(uv), area = length(cross(b, c)) / 2;
+  Point along_u, along_v;
+  for (std::size_t k = 0; k < 3; ++k) {
+    along_u[k] = (b[k] * (uv[2][1] - uv[0][1]) - c[k] * (uv[1][1] - uv[0][1])) / det;
+    along_v[k] = (c[k] * (uv[1][0] - uv[0][0]) - b[k] * (uv[2][0] - uv[0][0])) / det;
+  }
+  const double uu = dot(along_u, along_u), vv = dot(along_v, along_v), twice_mixed = 2 * dot(along_u, along_v);
+  return {std::sqrt((uu + vv + std::hypot(uu - vv, twice_mixed)) / 2), area};
+}
+
+}  // namespace
+
+double texel_length(const TriangleMesh& mesh, const Attribute& uv, int size, double share) {
+  const std::vector<Corners2> faces = uv_of_faces(mesh.triangles, uv);
+  std::vector<Stretch> stretches;
+  double area = 0;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (twice_area(faces[f]) == 0) continue;
+    const auto corner = [&](std::size_t k) { return mesh.points[at(mesh.triangles[f][k])]; };
+    stretches.push_back(stretch_of({corner(0), corner(1), corner(2)}, faces[f]));
+    area += stretches.back().area;
+  }
+  std::ranges::sort(stretches, std::greater{}, &Stretch::longest);
+  double beyond = 0;
+  for (const Stretch& s : stretches)
+    if ((beyond += s.area) > share * area) return s.longest / size;
+  return 0;
 }
 
 }  // namespace pelage

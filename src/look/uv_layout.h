@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "pelage/triangle_mesh.h"
 #include "shape/mesh_place.h"
 
 namespace pelage {
@@ -64,5 +65,9 @@ class UvLayout {
   std::vector<std::vector<std::vector<std::int32_t>>> in_band_;  ///< per tile and band of rows: numbers of these
   std::vector<UvNote> notes_;
 };
+
+/// How long texels of n x n are on a mesh, along the direction in which they are longest: all but `share` of the area
+/// have shorter ones. 0 where no face has an area in the image.
+double texel_length(const TriangleMesh& mesh, const Attribute& uv, int size, double share);
 
 }  // namespace pelage

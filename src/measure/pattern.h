@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "measure/spectrum.h"
+#include "measure/spots.h"
 #include "pelage/triangle_mesh.h"
 
 namespace pelage {
@@ -15,6 +17,13 @@ struct PatternPhase {
   double share = 0;       ///< of the area
   double width = 0;  ///< twice its area over the length of its border: of stripes their width, of discs half of their
                      ///< diameter; 0 without a border [world units]
+};
+
+/// Places where the lines across the slopes have no direction, in half turns: +1/2 where stripes end or bend around,
+/// -1/2 where three meet. On a closed surface half of `plus` - `minus` is its Euler characteristic. Of spots there are
+/// as many as there are spots.
+struct StripeDefects {
+  std::size_t plus = 0, minus = 0;
 };
 
 struct PatternMeasures {
@@ -35,6 +44,9 @@ struct PatternMeasures {
   /// Mean squares of the coordinates of the unit vectors along the stripes, weighted with slopes and coherence; their
   /// sum is 1 where there are any.
   std::array<double, 3> along{};
+  StripeDefects defects;
+  Spots spots;        ///< of the phase with more parts
+  Spectrum spectrum;  ///< empty for a constant
 };
 
 /// Of a function that is linear on the triangles, with one value per vertex. Default level: halfway between the lowest

@@ -78,7 +78,8 @@ class Compiler {
     add_own_fluxes();
     for (std::size_t i = 0; i < source_.species.size(); ++i) check_coupling(i);
     require_nothing_held_is_coupled();
-    add_wavelength_law();
+    equations_.wavelength_law = number_law(source_.wavelength_law, "wavelength");
+    equations_.period = number_law(source_.period, "period");
     add_jacobian();
     return std::move(equations_);
   }
@@ -438,12 +439,12 @@ class Compiler {
         fail("concentrations that are linked by lap() cannot be held", changes_.mask->where);
   }
 
-  void add_wavelength_law() {
-    if (!source_.wavelength_law) return;
-    const NodeId id = parse_formula(graph_, *source_.wavelength_law, scope_, "wavelength");
+  std::optional<NodeId> number_law(const std::optional<Formula>& formula, const char* name) {
+    if (!formula) return {};
+    const NodeId id = parse_formula(graph_, *formula, scope_, name);
     if (graph_[id].dependence & (on_species | on_time))
-      fail("a wavelength must be a number or made of parameters", source_.wavelength_law->where);
-    equations_.wavelength_law = id;
+      fail("a " + std::string(name) + " must be a number or made of parameters", formula->where);
+    return id;
   }
 
   void add_jacobian() {
@@ -480,6 +481,7 @@ ModelSource with_variant(ModelSource source, const std::string& variant) {
     if (candidate.name != variant) continue;
     apply_overrides(source, candidate.parameters);
     for (ParameterSource& parameter : source.parameters) parameter.reference.reset();
+    if (candidate.period) source.period = candidate.period;
     source.wavelength = candidate.wavelength;  // that of other parameter values says nothing about these
     if (candidate.wavelength_law) source.wavelength_law = candidate.wavelength_law;
     const Suggestions& suggested = candidate.suggestions;
@@ -495,6 +497,12 @@ ModelSource with_variant(ModelSource source, const std::string& variant) {
   fail("model \"" + source.name + "\" has no variant \"" + variant + "\"; " +
            (hint.empty() ? "it has " + (names.empty() ? "none" : join_names(names)) : hint),
        {});
+}
+
+std::optional<double> Model::period() const {
+  const auto node = equations().period;
+  const auto value = node ? equations().graph.constant_value(*node) : std::nullopt;
+  return value && *value > 0 && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::optional<double> Model::diffusion_constant(std::size_t i) const {

@@ -93,6 +93,7 @@ struct VariantSource {
   Overrides parameters;
   std::optional<double> wavelength;       ///< as in ModelSource
   std::optional<Formula> wavelength_law;  ///< instead of the model's
+  std::optional<Formula> period = {};     ///< likewise
   Suggestions suggestions;
   Location where;
 };
@@ -111,6 +112,8 @@ struct ModelSource {
                                           ///< variant, model length units
   std::optional<Formula> wavelength_law;  ///< the spacing as a formula of the parameters. Beside a number, which then
                                           ///< is that of a variant, only its ratios count. See model_wavelength().
+  std::optional<Formula> period = {};     ///< after which the finished pattern comes back, a formula of the parameters
+                                          ///< [model time]
   Suggestions suggestions;
 };
 
@@ -160,6 +163,7 @@ struct Equations {
   std::vector<NodeId> jacobian;            ///< dR_i / du_j at [i * species + j]
   std::vector<double> lower, upper;        ///< bounds of the concentrations, infinite where there is none
   std::optional<NodeId> wavelength_law;    ///< a number, unless a stage maps a parameter that is in it
+  std::optional<NodeId> period;            ///< likewise
 };
 
 /// A compiled model: an immutable value, cheap to copy.
@@ -171,6 +175,9 @@ class Model {
   std::size_t species_count() const { return source_->species.size(); }
   const std::string& species_name(std::size_t i) const { return source_->species[i].name; }
   const std::vector<ParameterSource>& parameters() const { return source_->parameters; }
+
+  /// After which the pattern comes back [model time], where the file says so and no stage maps what it is made of.
+  std::optional<double> period() const;
 
   /// Not advanced in time but determined by the others at every time.
   bool algebraic(std::size_t i) const { return equations_->algebraic[i] != 0; }

@@ -1,6 +1,7 @@
 #pragma once
 // A single formula of the place: maps, marks, opacities.
 
+#include <optional>
 #include <vector>
 
 #include "react/kinetics.h"
@@ -13,6 +14,11 @@ class PlaceFormula {
   /// attribute of that name, each of `numbers` for its value.
   explicit PlaceFormula(const Formula& formula, const std::vector<std::string>& names = {},
                         const std::map<std::string, double>& numbers = {});
+
+  /// Of a condition, which compares numbers: a formula that is above 0 where it holds and below where it does not, as
+  /// continuous as what it compares. "a == b" then holds where they differ by less than 0.5. Nothing where this is a
+  /// number.
+  std::optional<PlaceFormula> margin() const;
 
   /// What it reads from the place.
   std::vector<Symbol> symbols() const;

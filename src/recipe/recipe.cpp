@@ -7,6 +7,7 @@
 #include "base/length_unit.h"
 #include "base/number.h"
 #include "recipe/document.h"
+#include "recipe/read_recipe.h"
 
 namespace pelage {
 
@@ -263,10 +264,7 @@ Length parse_length(const std::string& text, const Location& where) {
   return {number, unit.empty() ? Length::Unit::diagonals : Length::Unit::world};
 }
 
-Recipe parse_recipe(const std::string& text, const std::string& file) {
-  const Value document = parse_document(text, file);
-  if (!document.find("stage") && document.find("species"))
-    throw Error(Fault::usage, "this is a model, not a recipe; give it as --model", {file});
+Recipe read_recipe(const Value& document, const std::string& file) {
   Recipe recipe;
   recipe.name = document.string_or("name", file);
   recipe.summary = document.string_or("summary", "");
@@ -277,6 +275,14 @@ Recipe parse_recipe(const std::string& text, const std::string& file) {
   read_solid(document, recipe.stages);
   if (const Value* motion = document.find("motion")) recipe.motion = read_motion(*motion);
   if (const Value* look = document.find("look")) recipe.look = read_look(*look);
+  return recipe;
+}
+
+Recipe parse_recipe(const std::string& text, const std::string& file) {
+  const Value document = parse_document(text, file);
+  if (!document.find("stage") && document.find("species"))
+    throw Error(Fault::usage, "this is a model, not a recipe; give it as --model", {file});
+  Recipe recipe = read_recipe(document, file);
   document.require_all_read();
   return recipe;
 }

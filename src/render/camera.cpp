@@ -32,15 +32,14 @@ Eigen::Vector3f Camera::direction(float x, float y) const {
 Eigen::Vector2f Camera::project(const Eigen::Vector3f& point) const {
   const Eigen::Vector3f offset = point - position;
   const float depth = -offset.dot(back);
+  if (!(depth > 0)) return Eigen::Vector2f::Constant(std::numeric_limits<float>::quiet_NaN());
   return {offset.dot(right) / (depth * tan_x), offset.dot(up) / (depth * tan_y)};
 }
 
 Camera frame_points(const std::vector<Eigen::Vector3f>& points, double azimuth_degrees, double elevation_degrees,
-                    double aspect, double margin) {
+                    double aspect, double margin, double angle_degrees) {
   constexpr double radian = std::numbers::pi / 180;
-  // The longer side of the picture sees 26 degrees, like a short telephoto lens: the usual one for products, since
-  // wider lenses swell what is near.
-  const double tangent = std::tan(13 * radian);
+  const double tangent = std::tan(angle_degrees / 2 * radian);
   const auto a = static_cast<float>(azimuth_degrees * radian), e = static_cast<float>(elevation_degrees * radian);
   Camera camera;
   camera.back = {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};

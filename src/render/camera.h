@@ -13,14 +13,15 @@ struct Camera {
 
   /// Unit direction through the place (x, y) of the picture, both in [-1, 1], x to the right and y upwards.
   Eigen::Vector3f direction(float x, float y) const;
-  /// The inverse: where a point appears, in the same coordinates.
+  /// The inverse: where a point appears, in the same coordinates; not a number behind the camera.
   Eigen::Vector2f project(const Eigen::Vector3f& point) const;
 };
 
 /// The nearest camera with the given direction of view that has all points inside the picture, centred with equal
 /// margins. y is up; azimuth 0 looks from +z, 90 degrees from +x; `aspect` is width over height; `margin` is
-/// the free part of the picture on each side, below 0.5.
+/// the free part of the picture on each side, below 0.5; `angle_degrees`: that the longer side sees. The usual one is
+/// that of a short telephoto lens, as for products, since wider lenses swell what is near.
 Camera frame_points(const std::vector<Eigen::Vector3f>& points, double azimuth_degrees, double elevation_degrees,
-                    double aspect, double margin);
+                    double aspect, double margin, double angle_degrees = 26);
 
 }  // namespace pelage

@@ -20,7 +20,11 @@ namespace {
 /// What random numbers are used for beside light; each use has its own sequence.
 enum Use : std::uint32_t { use_pixel = 1, use_dither = 5 };
 
-constexpr double margin = 0.09;  // of the picture around the object
+/// Paths are followed until the standard error of the pixels of a block, before it is smoothed, is this part of what
+/// they show, or of `darkest` where they show less: for so many view rays, and less with more of them. A twentieth of
+/// it where nothing is smoothed.
+constexpr float path_noise = 0.4F, usual_rays = 16, darkest = 0.05F;
+constexpr std::uint32_t first_paths = 4;  // of a pixel at least; at most as many as view rays
 
 /// Density of a tent of half-width 1 pixel around 0, by inversion.
 float tent(float random) { return random < 0.5F ? std::sqrt(2 * random) - 1 : 1 - std::sqrt(2 - 2 * random); }
@@ -81,6 +85,23 @@ struct Painter::Place {
   bool on_floor;
 };
 
+/// Where paths of a pixel begin: the share of it that shows one piece of surface.
+struct Painter::Way {
+  float share;
+  std::vector<std::pair<SurfacePoint, Vector3f>> points;  ///< as rays of these directions see them
+  Finish finish;
+  Reflection surface;
+  Vector3f color, normal, view;  ///< means
+  Vector3f behind;               ///< the paper
+};
+
+/// A pixel and where its paths begin.
+struct Painter::Traced {
+  std::size_t index;
+  std::uint32_t number;
+  std::vector<Way> ways;
+};
+
 /// What a pixel shows of one piece of surface.
 struct Painter::Fragment {
   Hit hit;  ///< of one ray, of this direction
@@ -89,12 +110,18 @@ struct Painter::Fragment {
   Vector3f color, normal, view;  ///< sums over the rays; view: their directions
   Finish finish;                 ///< likewise
   float rays = 1;
+  std::vector<std::pair<Hit, Vector3f>> others = {};  ///< hits and directions of the other rays
 };
 
 struct Painter::View {
   std::vector<Fragment> fragments;  // nearly always one
   float missed = 0;                 // rays
 
+  float rays() const {
+    float sum = missed;
+    for (const Fragment& f : fragments) sum += f.rays;
+    return sum;
+  }
   void add(const Hit& hit, const Vector3f& direction, const Vector3f& color, const LightGuide& guide,
            const Finish& finish) {
     constexpr float alike = 0.3F;
@@ -102,21 +129,22 @@ struct Painter::View {
       if (same_surface(f.guide, guide) > alike) {
         f.color += color, f.normal += guide.normal, f.view += direction, f.rays += 1;
         f.finish.add(1, finish);
+        f.others.emplace_back(hit, direction);
         return;
       }
     fragments.push_back({hit, direction, guide, color, guide.normal, direction, finish});
   }
 };
 
-Painter::Painter(const RayScene& scene, const std::vector<Vector3f>& points, const std::vector<Triangle>& triangles,
-                 const PictureOptions& options, Rays rays)
+Painter::Painter(const RayScene& scene, const std::vector<Vector3f>& points, const std::vector<Vector3f>& framed,
+                 const std::vector<Triangle>& triangles, const PictureOptions& options, Rays rays)
     : scene_(scene),
       width_(options.width),
       height_(options.height),
       rays_(rays),
-      camera_(frame_points(points, options.azimuth, options.elevation,
-                           static_cast<double>(options.width) / options.height, margin)),
-      studio_(camera_.back, Eigen::Map<const Eigen::Vector3d>(options.background.data()).cast<float>()),
+      camera_(frame_points(framed, options.azimuth, options.elevation,
+                           static_cast<double>(options.width) / options.height, options.margin, options.angle)),
+      studio_(camera_.back, Eigen::Map<const Eigen::Vector3d>(options.background.data()).cast<float>(), options.lamp),
       pixel_size_(2 * camera_.tan_x / static_cast<float>(width_) * camera_.position.norm()),
       tracer_(scene, studio_, pixel_size_),
       samples_(studio_),
@@ -142,8 +170,14 @@ void Painter::find_busy(const std::vector<Vector3f>& points, const std::vector<T
   parallel_for(triangles.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Triangle& t = triangles[i];
-      mark_busy(pixels[t[0]].cwiseMin(pixels[t[1]]).cwiseMin(pixels[t[2]]),
-                pixels[t[0]].cwiseMax(pixels[t[1]]).cwiseMax(pixels[t[2]]), rows);
+      // Behind the camera, or beside it, where the edges of a large triangle may be anywhere.
+      const int behind = pixels[t[0]].hasNaN() + pixels[t[1]].hasNaN() + pixels[t[2]].hasNaN();
+      if (behind == 3) continue;
+      if (behind > 0)
+        mark_busy({0, 0}, {static_cast<float>(width_), static_cast<float>(height_)}, rows);
+      else
+        mark_busy(pixels[t[0]].cwiseMin(pixels[t[1]]).cwiseMin(pixels[t[2]]),
+                  pixels[t[0]].cwiseMax(pixels[t[1]]).cwiseMax(pixels[t[2]]), rows);
     }
   });
 }
@@ -176,7 +210,8 @@ Band Painter::band(int first_row, int rows) const {
           width_,
           std::vector<Sight>(static_cast<std::size_t>(rows) * static_cast<std::size_t>(width_)),
           {width_, rows, rays_.cell, 0},
-          {width_, rows, rays_.cell, floor_stretch()}};
+          {width_, rows, rays_.cell, floor_stretch()},
+          scene_.plain() ? PathGrid() : PathGrid(width_, rows)};
 }
 
 Painter::Square Painter::square(const Band& band, int column, int row) const {
@@ -356,13 +391,12 @@ Light Painter::own_light(const Place& place) const {
   return light;
 }
 
-Vector3f Painter::coat_color(const Band& band, const Fragment& f, int x, int y) const {
-  Light light = light_at(band.coat, x, y - band.first, &f.guide);
-  if (!light.traced()) light = own_light({y, x, 0, f.direction, surface_point(f.hit, f.direction), false});
-  return scene_.plain() ? plain_color(f, light) : finished_color(band, f, light, x, y);
+Light Painter::light_of(const Band& band, const Fragment& f, int x, int y) const {
+  const Light light = light_at(band.coat, x, y - band.first, &f.guide);
+  return light.traced() ? light : own_light({y, x, 0, f.direction, surface_point(f.hit, f.direction), false});
 }
 
-Vector3f Painter::plain_color(const Fragment& f, const Light& light) const {
+Vector3f Painter::coat_color(const Fragment& f, const Light& light) const {
   const Vector3f color = f.color / f.rays, normal = f.normal.normalized(), view = f.view.normalized();
   const float mirrored = sheen(-normal.dot(view));
   const Vector3f sent_on = (1 - mirrored) * color + Vector3f::Constant(mirrored);
@@ -372,25 +406,94 @@ Vector3f Painter::plain_color(const Fragment& f, const Light& light) const {
 }
 
 /// What the surface scatters is a matter of the smoothed light, what it mirrors and lets through one of paths.
-Vector3f Painter::finished_color(const Band& band, const Fragment& f, const Light& light, int x, int y) const {
-  const Vector3f color = f.color / f.rays, normal = f.normal.normalized(), view = f.view.normalized();
-  Finish finish{0, 0, 0, 0, 0, 0};
-  finish.add(1 / f.rays, f.finish);
-  const Reflection surface(color, finish);
-  const float opaque = finish.opaque(), share = 1 / static_cast<float>(rays_.view);
-  const Vector3f even =
-      light.visible_key() * studio_.key_cosine(normal) * studio_.key() + studio_.open_irradiance(normal) + light.room;
-  Vector3f sum = finish.opacity * finish.emission * color +
-                 opaque * surface.scattered(std::max(0.0F, -normal.dot(view))).cwiseProduct(even);
-  const Vector3f behind = opaque < 1 ? paper_color(band, x, y) : Vector3f(0, 0, 0);
-  const SurfacePoint point = surface_point(f.hit, f.direction);
-  const std::uint32_t number = z_order(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
-  for (std::uint32_t k = 0; k < rays_.view; ++k) {
-    PathNumbers random(number * rays_.view + k);
-    if (opaque > 0) sum += opaque * share * paths_.mirrored(point, surface, f.direction, random);
-    if (opaque < 1) sum += (1 - opaque) * share * paths_.through(point, finish, f.direction, behind, random);
-  }
+Vector3f Painter::sharp_color(const Way& way, const Light& light) const {
+  const Vector3f even = light.visible_key() * studio_.key_cosine(way.normal) * studio_.key() +
+                        studio_.open_irradiance(way.normal) + light.room;
+  return way.finish.opacity * way.finish.emission * way.color +
+         way.finish.opaque() * way.surface.scattered(std::max(0.0F, -way.normal.dot(way.view))).cwiseProduct(even);
+}
+
+Vector3f Painter::path(const Way& way, std::uint32_t number, PathNumbers& random) const {
+  const auto& [point, direction] = way.points[number % way.points.size()];
+  const float opaque = way.finish.opaque();
+  Vector3f sum = Vector3f::Zero();
+  if (opaque > 0) sum += opaque * paths_.mirrored(point, way.surface, direction, random);
+  if (opaque < 1) sum += (1 - opaque) * paths_.through(point, way.finish, direction, way.behind, random);
   return sum;
+}
+
+std::vector<Painter::Way> Painter::find_ways(const Band& band, const View& view, int x, int y) const {
+  std::vector<Way> ways;
+  for (const Fragment& f : view.fragments) {
+    Finish finish{0, 0, 0, 0, 0, 0};
+    finish.add(1 / f.rays, f.finish);
+    const Vector3f color = f.color / f.rays;
+    std::vector<std::pair<SurfacePoint, Vector3f>> points{{surface_point(f.hit, f.direction), f.direction}};
+    for (const auto& [hit, direction] : f.others) points.emplace_back(surface_point(hit, direction), direction);
+    ways.push_back({f.rays / view.rays(), std::move(points), finish, Reflection(color, finish), color,
+                    f.normal.normalized(), f.view.normalized(),
+                    finish.opaque() < 1 ? paper_color(band, x, y) : Vector3f(0, 0, 0)});
+  }
+  return ways;
+}
+
+/// Where paths of a pixel begin; what needs none is found at once.
+std::vector<Painter::Way> Painter::begin_paths(Band& band, int x, int y) const {
+  const View view = view_of(band, x, y);
+  const std::size_t index = band.index(x, y);
+  Vector3f& sharp = band.paths.lights[index].sharp;
+  if (view.missed > 0) sharp = view.missed / view.rays() * paper_color(band, x, y);
+  std::vector<Way> ways = find_ways(band, view, x, y);
+  for (std::size_t k = 0; k < ways.size(); ++k)
+    sharp += ways[k].share * sharp_color(ways[k], light_of(band, view.fragments[k], x, y));
+  if (const Sight& sight = band.sights[index]; sight.seen())
+    band.paths.guides[index] = {sight.guide, sight.color, scene_.finish(sight.hit), true};
+  return ways;
+}
+
+/// More paths of one pixel; returns the square of the noise, as a share of what is seen.
+float Painter::follow(const Traced& pixel, std::uint32_t count, std::uint32_t round, PathSum& sum,
+                      PathLight& light) const {
+  for (std::uint32_t k = 0; k < count; ++k) {
+    PathNumbers random(pixel.number * count + k, round);
+    Vector3f sample = Vector3f::Zero();
+    for (const Way& way : pixel.ways) sample += way.share * path(way, sum.count(), random);
+    sum.add(sample);
+  }
+  light.mean = sum.mean(), light.variance = sum.variance();
+  const float seen = luminance(light.sharp + light.mean) + darkest;
+  return light.variance / (seen * seen);
+}
+
+/// The pixels of a small block decide together how many paths they need: that is surer than each by its own.
+void Painter::trace_block(Band& band, int left, int top, int right, int bottom) const {
+  std::vector<Traced> pixels;
+  for (int y = top; y < bottom; ++y)
+    for (int x = left; x < right; ++x)
+      if (std::vector<Way> ways = begin_paths(band, x, y); !ways.empty())
+        pixels.push_back(
+            {band.index(x, y), z_order(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)), std::move(ways)});
+  if (pixels.empty()) return;
+  const float wanted = rays_.levels > 0 ? path_noise : path_noise / 20;
+  const float tolerance = wanted * wanted * usual_rays / static_cast<float>(rays_.view);
+  std::vector<PathSum> sums(pixels.size());
+  std::uint32_t done = 0;
+  for (std::uint32_t round = 0, next = std::min(first_paths, rays_.view); done < rays_.view; ++round, next = done) {
+    float noise = 0;
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+      noise += follow(pixels[i], next, round, sums[i], band.paths.lights[pixels[i].index]);
+    done += next;
+    if (noise < tolerance * static_cast<float>(pixels.size())) return;
+  }
+}
+
+void Painter::trace(Band& band, int column, int row) const {
+  constexpr int block = 4;
+  const Square s = square(band, column, row);
+  if (!s.busy || scene_.plain()) return;
+  for (int y = s.top; y < s.bottom; y += block)
+    for (int x = s.left; x < s.right; x += block)
+      trace_block(band, x, y, std::min(x + block, s.right), std::min(y + block, s.bottom));
 }
 
 Vector3f Painter::paper_color(const Band& band, int x, int y) const {
@@ -422,26 +525,31 @@ Vector3f Painter::blurred_coat(const Band& band, int x, int y) const {
   return (here + bend / 12).cwiseMax(0);
 }
 
-Vector3f Painter::middle_color(const Band& band, int x, int y) const {
+Painter::View Painter::view_of(const Band& band, int x, int y) const {
+  if (busy(x / tile, y / tile) && is_rough(band, x, y)) return full_view(x, y);
   const Sight& sight = band.sight(x, y);
-  if (!sight.seen()) return paper_color(band, x, y);
+  if (!sight.seen()) return {{}, 1};
   const Vector3f view = direction(x, y);
-  const Fragment fragment{
-      sight.hit, view, sight.guide, blurred_coat(band, x, y), sight.guide.normal, view, scene_.finish(sight.hit)};
-  return coat_color(band, fragment, x, y);
+  return {
+      {{sight.hit, view, sight.guide, blurred_coat(band, x, y), sight.guide.normal, view, scene_.finish(sight.hit)}}};
 }
 
-Vector3f Painter::mean_color(const Band& band, int x, int y) const {
-  const View view = full_view(x, y);
+Vector3f Painter::plain_color(const Band& band, int x, int y) const {
+  const View view = view_of(band, x, y);
   Vector3f sum = Vector3f::Zero();
-  for (const Fragment& f : view.fragments) sum += f.rays * coat_color(band, f, x, y);
+  for (const Fragment& f : view.fragments) sum += f.rays * coat_color(f, light_of(band, f, x, y));
   if (view.missed > 0) sum += view.missed * paper_color(band, x, y);
-  return sum / static_cast<float>(offsets_.size());
+  return sum / view.rays();
 }
 
 Vector3f Painter::color(const Band& band, int x, int y) const {
-  const bool rough = busy(x / tile, y / tile) && is_rough(band, x, y);
-  const Vector3f color = rough ? mean_color(band, x, y) : middle_color(band, x, y);
+  Vector3f color;
+  if (scene_.plain() || !busy(x / tile, y / tile)) {
+    color = plain_color(band, x, y);
+  } else {
+    const PathLight& light = band.paths.lights[band.index(x, y)];
+    color = light.sharp + light.mean;
+  }
   const auto column = static_cast<std::uint32_t>(x) % dither_side, row = static_cast<std::uint32_t>(y) % dither_side;
   return color.cwiseMax(0) * dither_[row * dither_side + column];
 }

@@ -13,6 +13,7 @@
 #include "pelage/render.h"
 #include "render/camera.h"
 #include "render/light_tracer.h"
+#include "render/path_light.h"
 #include "render/paths.h"
 #include "render/ray_scene.h"
 #include "render/smooth_light.h"
@@ -34,10 +35,12 @@ struct Band {
   int first, rows, width;
   std::vector<Sight> sights;
   LightGrid coat, floor;
+  PathGrid paths;  ///< empty where the object is plain
 
-  const Sight& sight(int x, int y) const {
-    return sights[static_cast<std::size_t>(y - first) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y - first) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
+  const Sight& sight(int x, int y) const { return sights[index(x, y)]; }
   Sight& sight(int x, int y) { return const_cast<Sight&>(static_cast<const Band&>(*this).sight(x, y)); }
   bool contains(int x, int y) const { return x >= 0 && x < width && y >= first && y < first + rows; }
 };
@@ -51,12 +54,13 @@ struct Rays {
 };
 
 /// A band is painted in steps, each of which needs the whole one before; after `look` closeness is found, before
-/// `color` light is smoothed. All queries may run on several threads at once, for squares of their own.
+/// `trace` light is smoothed, and before `color` what paths have found. All queries may run on several threads at once,
+/// for squares of their own.
 class Painter {
  public:
-  /// The object of `scene` has the corners `points`; both must outlive the painter.
-  Painter(const RayScene& scene, const std::vector<Eigen::Vector3f>& points, const std::vector<Triangle>& triangles,
-          const PictureOptions& options, Rays rays);
+  /// The object of `scene` has the corners `points`, and the camera sees `framed`; the scene must outlive the painter.
+  Painter(const RayScene& scene, const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& framed,
+          const std::vector<Triangle>& triangles, const PictureOptions& options, Rays rays);
 
   /// Pictures are traced in squares of so many pixels.
   static constexpr int tile = 16;
@@ -67,9 +71,13 @@ class Painter {
   void look(Band& band, int column, int row) const;
   /// More light where things are near.
   void light_more(Band& band, int column, int row) const;
+  /// Follows paths, until their noise is small beside the light of the pixels.
+  void trace(Band& band, int column, int row) const;
   Eigen::Vector3f color(const Band& band, int x, int y) const;
 
  private:
+  struct Way;
+  struct Traced;
   struct Place;
   struct Fragment;
   struct View;
@@ -86,13 +94,18 @@ class Painter {
 
   bool is_rough(const Band& band, int x, int y) const;
   View full_view(int x, int y) const;
+  View view_of(const Band& band, int x, int y) const;
   Eigen::Vector3f blurred_coat(const Band& band, int x, int y) const;
-  Eigen::Vector3f middle_color(const Band& band, int x, int y) const;
-  Eigen::Vector3f mean_color(const Band& band, int x, int y) const;
+  Eigen::Vector3f plain_color(const Band& band, int x, int y) const;
   Light own_light(const Place& place) const;
-  Eigen::Vector3f coat_color(const Band& band, const Fragment& fragment, int x, int y) const;
-  Eigen::Vector3f plain_color(const Fragment& fragment, const Light& light) const;
-  Eigen::Vector3f finished_color(const Band& band, const Fragment& fragment, const Light& light, int x, int y) const;
+  Light light_of(const Band& band, const Fragment& fragment, int x, int y) const;
+  Eigen::Vector3f coat_color(const Fragment& fragment, const Light& light) const;
+  Eigen::Vector3f sharp_color(const Way& way, const Light& light) const;
+  Eigen::Vector3f path(const Way& way, std::uint32_t number, PathNumbers& random) const;
+  std::vector<Way> find_ways(const Band& band, const View& view, int x, int y) const;
+  std::vector<Way> begin_paths(Band& band, int x, int y) const;
+  float follow(const Traced& pixel, std::uint32_t count, std::uint32_t round, PathSum& sum, PathLight& light) const;
+  void trace_block(Band& band, int left, int top, int right, int bottom) const;
   bool finish_bends(const Sight& before, const Sight& here, const Sight& after) const;
   Eigen::Vector3f paper_color(const Band& band, int x, int y) const;
   float gloss(const Eigen::Vector3f& normal, const Eigen::Vector3f& view) const;

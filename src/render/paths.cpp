@@ -31,6 +31,9 @@ Vector3f beyond(const SurfacePoint& point) { return point.position - lift * poin
 
 float balance(float own, float other) { return std::isinf(own) ? 1 : own / (own + other); }
 
+/// Thin glass reflects at both sides, and between them.
+float reflectance_of(bool thin, float once) { return thin ? 2 * once / (1 + once) : once; }
+
 float brightest(const Vector3f& v) { return v.maxCoeff(); }
 
 }  // namespace
@@ -86,7 +89,17 @@ Vector3f Paths::through(const SurfacePoint& point, const Finish& finish, const V
   Ray mirrored = ray;
   pass_glass(point, glass, true, mirrored);
   pass_glass(point, glass, false, ray);
-  return glass.reflectance * arriving(mirrored, random) + (1 - glass.reflectance) * arriving(ray, random);
+  const Facets facets(finish.roughness);
+  mirrored.density = facets.mirrored_density(glass.view, glass.frame.to_local(mirrored.direction));
+  const Vector3f lamp = from_lamp(
+      point,
+      [&](const Vector3f& light) {
+        const float cosine = std::max(least_cosine, glass.view.dot((glass.view + light).normalized()));
+        const float reflectance = reflectance_of(glass.thin, glass_reflectance(cosine, glass.ratio));
+        return Vector3f::Constant(reflectance * facets.mirrored_density(glass.view, light) / light.z());
+      },
+      [&](const Vector3f& light) { return facets.mirrored_density(glass.view, light); }, random);
+  return lamp + glass.reflectance * arriving(mirrored, random) + (1 - glass.reflectance) * arriving(ray, random);
 }
 
 /// Where the ray leaves the object for good.
@@ -111,8 +124,8 @@ Paths::Glass Paths::glass_at(const SurfacePoint& point, const Finish& finish, co
   const float ratio = leaving ? 1 / glass_index : glass_index, once = glass_reflectance(cosine, ratio);
   constexpr float clear = 0.05F;  // roughness below which thin glass shows what is behind it
   Glass glass{frame, view, half, cosine, ratio, once, thin, finish.roughness <= clear, Vector3f::Ones()};
-  if (thin) {  // reflected at both sides, and between them
-    glass.reflectance = 2 * once / (1 + once);
+  glass.reflectance = reflectance_of(thin, once);
+  if (thin) {
     glass.tint = point.color;
   } else if (leaving) {  // Beer's law: on its thickness the light takes the glass's colour
     const float way = (point.position - ray.origin).norm() / finish.thickness;
@@ -168,6 +181,15 @@ Vector3f Paths::pass_opaque(const SurfacePoint& point, const Reflection& surface
   return sum;
 }
 
+/// Dim rays are followed in part, for the others of their kind (Russian roulette).
+bool Paths::survives(Ray& ray, PathNumbers& random) {
+  constexpr float dim = 0.3F;
+  const float chance = brightest(ray.left) / dim;
+  if (chance >= 1) return true;
+  ray.left /= chance;
+  return random.next()[0] < chance;
+}
+
 Vector3f Paths::arriving(Ray ray, PathNumbers& random) const {
   constexpr int most_events = 24, most_bounces = 3;
   constexpr float invisible = 1e-3F;
@@ -182,6 +204,7 @@ Vector3f Paths::arriving(Ray ray, PathNumbers& random) const {
       continue;
     }
     sum += finish.emission * ray.left.cwiseProduct(point->color);
+    if (!survives(ray, random)) return sum;
     if (glass < finish.glass()) {
       const Glass g = glass_at(*point, finish, ray, random);
       pass_glass(*point, g, random.next()[0] < g.reflectance, ray);

@@ -15,15 +15,17 @@
 
 namespace pelage {
 
-/// Random numbers of one path: the same index of Sobol's sequence, a new pair of dimensions for every use.
+/// Random numbers of one path: the same index of Sobol's sequence, a new pair of dimensions for every use. Each round
+/// has a sequence of its own.
 class PathNumbers {
  public:
-  explicit PathNumbers(std::uint32_t index) : index_(index) {}
+  explicit PathNumbers(std::uint32_t index, std::uint32_t round = 0) : index_(index), use_(round * uses_of_round) {}
   std::array<float, 2> next() { return scrambled_sobol(index_, first_use + use_++); }
 
  private:
   static constexpr std::uint32_t first_use = 16;  // behind those of other purposes
-  std::uint32_t index_, use_ = 0;
+  static constexpr std::uint32_t uses_of_round = 1024;
+  std::uint32_t index_, use_;
 };
 
 /// All queries may run on several threads at once. Each is one sample.
@@ -53,6 +55,7 @@ class Paths {
     bool in_glass = false;                    ///< or was: the few ways that lead to the lamp would be noise
   };
 
+  static bool survives(Ray& ray, PathNumbers& random);
   Eigen::Vector3f arriving(Ray ray, PathNumbers& random) const;
   Eigen::Vector3f outside(const Ray& ray, PathNumbers& random) const;
   /// Of the key lamp, where `density(direction)` is that of other samples.

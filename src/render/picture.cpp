@@ -1,5 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -30,14 +32,14 @@ Eigen::AlignedBox3d joined(std::size_t n, const Extend& extend) {
   return box;
 }
 
-Eigen::Vector3d turned(const TriangleMesh& mesh, const Eigen::Matrix3d& rotation, std::size_t v) {
-  return rotation * Eigen::Map<const Eigen::Vector3d>(mesh.points[v].data());
+Eigen::Vector3d turned(const std::vector<Point>& points, const Eigen::Matrix3d& rotation, std::size_t v) {
+  return rotation * Eigen::Map<const Eigen::Vector3d>(points[v].data());
 }
 
 /// Around the object turned upright.
 Eigen::AlignedBox3d upright_box(const TriangleMesh& mesh, const Eigen::Matrix3d& rotation) {
   Eigen::AlignedBox3d box = joined(mesh.triangles.size(), [&](std::size_t i, Eigen::AlignedBox3d& part) {
-    for (std::int32_t v : mesh.triangles[i]) part.extend(turned(mesh, rotation, static_cast<std::size_t>(v)));
+    for (std::int32_t v : mesh.triangles[i]) part.extend(turned(mesh.points, rotation, static_cast<std::size_t>(v)));
   });
   const double size = box.isEmpty() ? 0 : box.diagonal().norm();
   if (!(size > 0) || !std::isfinite(size)) throw Error(Fault::input, "the mesh has no extent; there is nothing to see");
@@ -45,13 +47,13 @@ Eigen::AlignedBox3d upright_box(const TriangleMesh& mesh, const Eigen::Matrix3d&
 }
 
 /// The object turned upright, scaled to a bounding sphere of diameter 1 and put on the ground y = 0.
-std::vector<Vector3f> stand_upright(const TriangleMesh& mesh, const Eigen::Matrix3d& rotation,
+std::vector<Vector3f> stand_upright(const std::vector<Point>& given, const Eigen::Matrix3d& rotation,
                                     const Eigen::AlignedBox3d& box) {
   const double size = box.diagonal().norm();
   const Eigen::Vector3d foot(box.center().x(), box.min().y(), box.center().z());
-  std::vector<Vector3f> points(mesh.points.size());
+  std::vector<Vector3f> points(given.size());
   parallel_for(points.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) points[v] = ((turned(mesh, rotation, v) - foot) / size).cast<float>();
+    for (std::size_t v = begin; v < end; ++v) points[v] = ((turned(given, rotation, v) - foot) / size).cast<float>();
   });
   return points;
 }
@@ -70,8 +72,12 @@ struct StandingMesh {
   StandingMesh(const TriangleMesh& mesh, UpAxis up_axis, const std::function<bool(double)>& report)
       : up(up_axis),
         box(upright_box(mesh, upright_rotation(up))),
-        points(stand_upright(mesh, upright_rotation(up), box)),
+        points(stand_upright(mesh.points, upright_rotation(up), box)),
         scene(mesh, points, upright_rotation(up).cast<float>(), report, static_cast<float>(1 / box.diagonal().norm())) {
+  }
+
+  std::vector<Vector3f> framed(const PictureOptions& options) const {
+    return options.framed.empty() ? points : stand_upright(options.framed, upright_rotation(up), box);
   }
 
   UpAxis up;
@@ -92,6 +98,11 @@ void check(const PictureOptions& options) {
   if (!inside(options.elevation, -89, 89) || !inside(options.azimuth, -3600, 3600))
     throw Error(Fault::usage,
                 "the camera's elevation must lie between -89 and 89 degrees, its azimuth within ten turns");
+  if (!inside(options.angle, 1, 120) || !inside(options.margin, -0.45, 0.45))
+    throw Error(Fault::usage,
+                "the camera's angle must lie between 1 and 120 degrees, its margin between -0.45 and 0.45");
+  if (!inside(options.lamp.elevation, 10, 90) || !inside(options.lamp.size, 0.02, 1))
+    throw Error(Fault::usage, "the lamp's elevation must lie between 10 and 90 degrees, its size between 0.02 and 1");
 }
 
 /// Fractions of something that takes the part from `begin` to `end` of the whole.
@@ -125,13 +136,13 @@ class Picture {
  public:
   Picture(const StandingMesh& model, const TriangleMesh& mesh, const PictureOptions& options)
       : rays_(rays_of(options.samples)),
-        painter_(model.scene, model.points, mesh.triangles, options, rays_),
+        plain_(model.scene.plain()),
+        painter_(model.scene, model.points, model.framed(options), mesh.triangles, options, rays_),
         exposure_(static_cast<float>(std::exp2(options.exposure))),
         image_{options.width, options.height, std::vector<float>(std::size_t{3} * options.width * options.height)} {}
 
   Image paint(const Part& whole) {
-    const int reach = light_reach(rays_.levels, rays_.cell);
-    const int tiles = std::max(most_pixels / image_.width, 4 * reach) / Painter::tile;
+    const int tiles = std::max(most_pixels / image_.width, 4 * reach()) / Painter::tile;
     const int rows = std::max(1, tiles) * Painter::tile;
     const double all = cost(0, image_.height);
     for (int top = 0; top < image_.height; top += rows) {
@@ -142,7 +153,7 @@ class Picture {
   }
 
  private:
-  static constexpr int most_pixels = 1 << 20;  // at a time; each takes 80 bytes
+  static constexpr int most_pixels = 1 << 20;  // at a time; each takes 80 bytes, with paths 200
 
   /// Time that rows take, in units of that of a square without the object.
   double cost(int top, int bottom) const {
@@ -154,11 +165,21 @@ class Picture {
     return sum;
   }
 
+  /// Of the time that is over when the steps end.
+  std::array<double, 4> shares() const {
+    if (plain_) return {0.43, 0.66, 0.75, 0.75};
+    return {0.1, 0.15, 0.2, 0.95};
+  }
+
+  /// They reach as far as light does.
+  int path_levels() const { return rays_.levels == 0 ? 0 : std::bit_width(static_cast<unsigned>(reach())) - 1; }
+  int reach() const { return light_reach(rays_.levels, rays_.cell); }
+
   void paint_rows(int top, int bottom, const Part& part) {
-    constexpr double looked = 0.43, lit = 0.66, smoothed = 0.75;  // shares of the time
+    const auto [looked, lit, smoothed, traced] = shares();
     // Whole squares, in which the painter looks for what is worth its rays.
-    const int reach = (light_reach(rays_.levels, rays_.cell) + Painter::tile - 1) / Painter::tile * Painter::tile;
-    const int first = std::max(0, top - reach), last = std::min(image_.height, bottom + reach);
+    const int around = (reach() + Painter::tile - 1) / Painter::tile * Painter::tile;
+    const int first = std::max(0, top - around), last = std::min(image_.height, bottom + around);
     Band band = painter_.band(first, last - first);
     for_squares(first, last, part.part(0, looked), [&](int column, int row) { painter_.look(band, column, row); });
     find_closeness(band.coat);
@@ -168,7 +189,12 @@ class Picture {
     const Part smoothing = part.part(lit, smoothed);
     smooth_light(band.coat, rays_.levels, [&](double fraction) { smoothing.report(fraction / 2); });
     smooth_light(band.floor, rays_.levels, [&](double fraction) { smoothing.report((1 + fraction) / 2); });
-    for_squares(top, bottom, part.part(smoothed, 1), [&](int column, int row) { color(band, column, row); });
+    if (traced > smoothed) {
+      for_squares(first, last, part.part(smoothed, traced),
+                  [&](int column, int row) { painter_.trace(band, column, row); });
+      smooth_paths(band.paths, path_levels(), [&](double) { part.report(traced); });
+    }
+    for_squares(top, bottom, part.part(traced, 1), [&](int column, int row) { color(band, column, row); });
   }
 
   void color(const Band& band, int column, int row) {
@@ -207,6 +233,7 @@ class Picture {
   }
 
   Rays rays_;
+  bool plain_;
   Painter painter_;
   float exposure_;
   Image image_;

@@ -13,6 +13,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "pelage/error.h"
+#include "shape/normals.h"
 #include "shape/relief.h"
 
 namespace pelage {
@@ -131,11 +132,13 @@ struct RayScene::Embree {
   Embree(const Embree&) = delete;
   Embree& operator=(const Embree&) = delete;
 
-  void build(const std::vector<Vector3f>& points, const std::vector<Triangle>& triangles, const Report& report) {
+  void build(const std::vector<Vector3f>& points, const std::vector<Triangle>& triangles, bool careful,
+             const Report& report) {
     device = rtcNewDevice(nullptr);
     if (device) scene = rtcNewScene(device);
     if (!scene) throw Error(Fault::numerics, "the ray tracer could not be started");
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);  // no rays slip through between neighbouring triangles
+    if (careful) rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vector3f),
                                              points.size());
@@ -187,7 +190,7 @@ RayScene::RayScene(const TriangleMesh& mesh, const std::vector<Vector3f>& points
   embree_ = std::make_unique<Embree>();
   // The shape of Embree's tree, and with it the choice between two triangles at a shared edge, depends on the number of
   // threads that build it.
-  run_on_one_thread([&] { embree_->build(points_, triangles_, report); });
+  run_on_one_thread([&] { embree_->build(points_, triangles_, !plain(), report); });
 }
 
 RayScene::~RayScene() = default;

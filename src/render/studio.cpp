@@ -16,8 +16,6 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-constexpr float lamp_radius = 0.30F;  // of a lamp at distance 1: shadows with wide soft edges
-
 const Vector3f wall(0.30F, 0.31F, 0.33F), ceiling(0.53F, 0.55F, 0.57F);
 
 /// The part of the room's light that still arrives after two bounces, as a share of a white surface: without it
@@ -78,12 +76,13 @@ float clipped_mean(float a, float b) {
 
 }  // namespace
 
-Studio::Studio(const Vector3f& back, const Vector3f& paper)
+Studio::Studio(const Vector3f& back, const Vector3f& paper, const PictureLamp& lamp)
     : key_(0.62F, 0.605F, 0.585F),  // a little warmer than the room, as tungsten against daylight
       paper_(paper),
-      to_key_(lamp_direction(back, -42, 48)),
+      to_key_(lamp_direction(back, static_cast<float>(lamp.azimuth), static_cast<float>(lamp.elevation))),
       to_rim_(lamp_direction(back, 140, 30)),
-      back_(back) {
+      back_(back),
+      lamp_radius_(static_cast<float>(lamp.size)) {
   const Frame around(to_key_);
   key_x_ = around.x, key_y_ = around.y;
   // Exact for polynomials of degree 5 over the disc (Abramowitz and Stegun 25.4.61): the middle and a hexagon.
@@ -123,11 +122,11 @@ Vector3f Studio::open_irradiance(const Vector3f& n) const {
 }
 
 Vector3f Studio::key_direction(const std::array<float, 2>& random) const {
-  const Vector2f p = lamp_radius * disc_point(random);
+  const Vector2f p = lamp_radius_ * disc_point(random);
   return (to_key_ + p.x() * key_x_ + p.y() * key_y_).normalized();
 }
 
-float Studio::key_density(const Vector3f& direction) const { return density_of_disc(direction, lamp_radius); }
+float Studio::key_density(const Vector3f& direction) const { return density_of_disc(direction, lamp_radius_); }
 
 /// Over the sphere, of directions to even points of a lamp of that radius.
 float Studio::density_of_disc(const Vector3f& direction, float radius) const {
@@ -139,7 +138,7 @@ float Studio::density_of_disc(const Vector3f& direction, float radius) const {
 Vector3f Studio::lamp(const Vector3f& direction) const { return pi * key_density(direction) * key_; }
 
 Vector3f Studio::wide_lamp(const Vector3f& direction) const {
-  return pi * density_of_disc(direction, 3 * lamp_radius) * key_;
+  return pi * density_of_disc(direction, 3 * lamp_radius_) * key_;
 }
 
 Vector3f Studio::surroundings(const Vector3f& direction) const {
@@ -156,8 +155,8 @@ Vector3f Studio::seen_floor(bool lit) const {
 float Studio::key_cosine(const Vector3f& n) const {
   // The flat lamp's points are to_key + p with |p| <= r, their distances sqrt(1 + p^2): 2 (sqrt(1 + r^2) - 1) / r^2 is
   // the mean of 1 / distance.
-  constexpr float r = lamp_radius;
-  static const float nearness = 2 * (std::sqrt(1 + r * r) - 1) / (r * r);
+  const float r = lamp_radius_;
+  const float nearness = 2 * (std::sqrt(1 + r * r) - 1) / (r * r);
   const float a = n.dot(to_key_);
   const float b = r * std::sqrt(std::max(1e-6F, n.squaredNorm() - a * a));
   return nearness * clipped_mean(a, b);

@@ -6,6 +6,8 @@
 #include <array>
 #include <vector>
 
+#include "pelage/render.h"
+
 namespace pelage {
 
 /// All radiances are such that a white, matt surface that faces the key lamp is close to 1.
@@ -13,7 +15,7 @@ class Studio {
  public:
   /// The lamps turn with the camera; `back` points from the object to it, y is up. `paper` is the colour of the
   /// backdrop in linear light.
-  Studio(const Eigen::Vector3f& back, const Eigen::Vector3f& paper);
+  Studio(const Eigen::Vector3f& back, const Eigen::Vector3f& paper, const PictureLamp& lamp = {});
 
   /// A direction towards a point of the key lamp for a random point of the unit square.
   Eigen::Vector3f key_direction(const std::array<float, 2>& random) const;
@@ -59,6 +61,7 @@ class Studio {
 
   Eigen::Vector3f key_, paper_, floor_;
   Eigen::Vector3f to_key_, to_rim_, key_x_, key_y_, back_;
+  float lamp_radius_;
   std::array<LampPoint, 7> key_points_;
   std::vector<Eigen::Vector3f> irradiance_;  ///< over the octahedral map of directions
 };

@@ -33,6 +33,7 @@ class CloudGround final : public CellGround {
   double area() const override { return sums_.back(); }
   Box box() const override { return box_of(cloud_.point); }
   std::size_t outliers() const override { return cloud_.outliers; }
+  std::size_t points_that_count() const override { return cloud_.point.size(); }
 
   CellPlace scattered(std::size_t k, std::size_t n) const override {
     const std::size_t c = part_at(sums_, (static_cast<double>(k) + uniform(1, k)) / static_cast<double>(n));

@@ -6,6 +6,7 @@
 
 #include "base/box.h"
 #include "pelage/triangle_mesh.h"
+#include "shape/covered_parts.h"
 
 namespace pelage {
 
@@ -24,6 +25,10 @@ class CellGround {
   virtual Box box() const = 0;
   /// Points of a cloud that do not count since they are far from all others.
   virtual std::size_t outliers() const { return 0; }
+  /// How many points of a cloud count; 0 for polygons.
+  virtual std::size_t points_that_count() const { return 0; }
+  /// What lies inside other parts and is no ground; null: nothing.
+  virtual std::shared_ptr<const CoveredParts> covered() const { return nullptr; }
   /// The k-th of n places spread evenly at random.
   virtual CellPlace scattered(std::size_t k, std::size_t n) const = 0;
   /// By a tangential step, which turns with the ground.

@@ -77,17 +77,6 @@ class CellNeighbours {
   void find(std::size_t cell, double radius, std::vector<CellNeighbour>& found) const {
     find(points_[cell], normals_[cell], radius, static_cast<std::int32_t>(cell), found);
   }
-  /// Of any sheet, within a radius; -1: none.
-  std::int32_t nearest(const Point& from, double radius) const {
-    std::int32_t best = -1;
-    double least = 0;
-    index_.for_each_within(from, radius, [&](std::int32_t j, double square) {
-      if (best >= 0 && (square > least || (square == least && j > best))) return;
-      best = j;
-      least = square;
-    });
-    return best;
-  }
 
  private:
   std::span<const Point> points_, normals_;

@@ -26,25 +26,31 @@ Point moved(const Point& p, double t, const Point& step) {
 
 class PolygonGround final : public CellGround {
  public:
-  explicit PolygonGround(std::shared_ptr<const TriangleMesh> mesh) : mesh_(std::move(mesh)), twin_(soup_twins(*mesh_)) {
+  explicit PolygonGround(std::shared_ptr<const TriangleMesh> mesh)
+      : mesh_(std::move(mesh)), twin_(soup_twins(*mesh_)), covered_(CoveredParts::of(mesh_)) {
     double sum = 0;
     for (const Triangle& t : mesh_->triangles) {
       const Point n = cross(difference(at(t[1]), at(t[0])), difference(at(t[2]), at(t[0])));
       normal_.push_back(unit(n));
       sums_.push_back(sum += length(n) / 2);
     }
+    if (covered_) sum = sum_up_pieces();
     if (!(sum > 0) || !std::isfinite(sum)) throw Error(Fault::input, "the shape has no area to lay cells on");
   }
 
   double area() const override { return sums_.back(); }
   Box box() const override { return box_of(mesh_->points); }
+  std::shared_ptr<const CoveredParts> covered() const override { return covered_; }
 
   CellPlace scattered(std::size_t k, std::size_t n) const override {
     const double share = (static_cast<double>(k) + uniform(1, k)) / static_cast<double>(n);
     CellPlace place;
-    place.face = static_cast<std::int32_t>(part_at(sums_, share));
+    const std::size_t part = part_at(sums_, share);
     const double root = std::sqrt(uniform(2, k)), side = uniform(3, k);
-    put(place, {root * (1 - side), root * side});
+    const std::array<double, 2> in = {root * (1 - side), root * side};
+    if (covered_) return scattered_on(covered_->seen()[part], in);
+    place.face = static_cast<std::int32_t>(part);
+    put(place, in);
     return place;
   }
 
@@ -61,6 +67,12 @@ class PolygonGround final : public CellGround {
   bool goes_on(std::int32_t face, const Point& from) const {
     return dot(normal(face), normal(face)) > 0 && dot(normal(face), from) > opposing_normals;
   }
+  double sum_up_pieces();
+  CellPlace scattered_on(const CoveredParts::Piece& piece, const std::array<double, 2>& in) const;
+  bool is_covered(const CellPlace& place) const { return covered_ && covered_->covers(place.face, place.point); }
+  void walk(CellPlace& place, const Point& step) const;
+  void turn_aside(CellPlace& place, const Point& step) const;
+  std::int32_t nearest_wall(const CellPlace& place, double reach) const;
   void put(CellPlace& place, const std::array<double, 2>& in) const;
   void put_nearest(CellPlace& place, const Point& p) const;
   void cross_gap(CellPlace& place, const Point& rest) const;
@@ -72,7 +84,8 @@ class PolygonGround final : public CellGround {
   std::shared_ptr<const TriangleMesh> mesh_;
   std::vector<std::int32_t> twin_;  ///< per half-edge, or below 0
   std::vector<Point> normal_;
-  std::vector<double> sums_;  ///< of the areas up to each triangle
+  std::shared_ptr<const CoveredParts> covered_;
+  std::vector<double> sums_;  ///< of the areas up to each triangle, or to each piece that is not covered
   mutable std::once_flag tree_made_;
   mutable std::unique_ptr<const DistanceTree> tree_;
 };
@@ -112,7 +125,7 @@ std::pair<int, double> way_out(const std::array<double, 2>& place, const std::ar
   return out;
 }
 
-void PolygonGround::move(CellPlace& place, const Point& step) const {
+void PolygonGround::walk(CellPlace& place, const Point& step) const {
   Point rest = step;
   for (int crossing = 0; crossing < most_crossings; ++crossing) {
     const std::array<double, 2> change = shares(rest, corners(place.face));
@@ -147,6 +160,78 @@ void PolygonGround::cross_gap(CellPlace& place, const Point& rest) const {
     best = missed;
     place = on;
   }
+}
+
+double PolygonGround::sum_up_pieces() {
+  double sum = 0;
+  const std::vector<double> whole = std::move(sums_);
+  sums_.clear();
+  for (const CoveredParts::Piece& piece : covered_->seen()) {
+    const auto f = static_cast<std::size_t>(piece.face);
+    const auto& [a, b, c] = piece.corner;
+    const double share = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    sums_.push_back(sum += share * (whole[f] - (f > 0 ? whole[f - 1] : 0)));
+  }
+  return sum;
+}
+
+/// Pieces at the line where parts meet are seen at least in their middle.
+CellPlace PolygonGround::scattered_on(const CoveredParts::Piece& piece, const std::array<double, 2>& in) const {
+  const auto& [a, b, c] = piece.corner;
+  const auto put_at = [&](double v, double w) {
+    CellPlace place;
+    place.face = piece.face;
+    put(place, {(1 - v - w) * a[0] + v * b[0] + w * c[0], (1 - v - w) * a[1] + v * b[1] + w * c[1]});
+    return place;
+  };
+  const CellPlace place = put_at(in[0], in[1]);
+  return is_covered(place) ? put_at(1.0 / 3, 1.0 / 3) : place;
+}
+
+void PolygonGround::move(CellPlace& place, const Point& step) const {
+  const CellPlace from = place;
+  walk(place, step);
+  if (!is_covered(place)) return;
+  place = from;
+  turn_aside(place, step);
+}
+
+/// Up to where another part covers the ground, and on along that part.
+void PolygonGround::turn_aside(CellPlace& place, const Point& step) const {
+  constexpr int halvings = 12;
+  const CellPlace from = place;
+  double share = 0;
+  for (int k = 1; k <= halvings; ++k) {
+    const double further = share + std::ldexp(1, -k);
+    CellPlace there = from;
+    walk(there, moved({}, further, step));
+    if (is_covered(there)) continue;
+    share = further;
+    place = there;
+  }
+  const std::int32_t wall = nearest_wall(place, length(step));
+  if (wall < 0) return;
+  const Point rest = turned_into(moved({}, 1 - share, step), from.normal, place.normal);
+  CellPlace on = place;
+  on.face = wall;
+  put_nearest(on, place.point);
+  walk(on, turned_into(rest, place.normal, normal(wall)));
+  if (!is_covered(on)) place = on;
+}
+
+/// Of other parts; -1: none within reach.
+std::int32_t PolygonGround::nearest_wall(const CellPlace& place, double reach) const {
+  std::int32_t best = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::int32_t face : tree().within(place.point, reach)) {
+    if (covered_->same_part(face, place.face) || !goes_on(face, place.normal)) continue;
+    const auto [a, b, c] = corners(face);
+    const double square = square_distance(place.point, a, b, c);
+    if (square >= least) continue;
+    least = square;
+    best = face;
+  }
+  return best;
 }
 
 }  // namespace

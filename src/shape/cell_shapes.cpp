@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "shape/covered_parts.h"
 #include "shape/soup_edges.h"
 
 namespace pelage {
@@ -13,7 +14,7 @@ namespace {
 /// Of border pieces [radius].
 constexpr double longest_piece = 0.25;
 
-std::vector<BorderPiece> pieces_of_open_edges(const TriangleMesh& mesh, double longest) {
+std::vector<BorderPiece> pieces_of_open_edges(const TriangleMesh& mesh, const CoveredParts* covered, double longest) {
   std::vector<BorderPiece> pieces;
   const std::vector<std::int32_t> twin = soup_twins(mesh);
   for (std::size_t h = 0; h < twin.size(); ++h) {
@@ -27,7 +28,7 @@ std::vector<BorderPiece> pieces_of_open_edges(const TriangleMesh& mesh, double l
     for (double k = 0.5; k < count; ++k) {
       BorderPiece piece{a, normal, unit(cross(along, normal)), length(along) / count / 2};
       for (std::size_t d = 0; d < 3; ++d) piece.middle[d] += k / count * along[d];
-      pieces.push_back(piece);
+      if (!covered || !covered->covers(static_cast<std::int32_t>(h / 3), piece.middle)) pieces.push_back(piece);
     }
   }
   return pieces;
@@ -46,7 +47,7 @@ bool goes_on(const BorderPiece& piece, const CellNeighbours& neighbours, double 
 }  // namespace
 
 std::vector<BorderPiece> border_pieces(const Cells& cells, const CellNeighbours& neighbours) {
-  std::vector<BorderPiece> pieces = pieces_of_open_edges(*cells.on, longest_piece * cells.radius);
+  std::vector<BorderPiece> pieces = pieces_of_open_edges(*cells.on, cells.covered.get(), longest_piece * cells.radius);
   std::vector<char> continued(pieces.size(), 0);
   parallel_for(pieces.size(), [&](std::size_t begin, std::size_t end) {
     std::vector<CellNeighbour> found;

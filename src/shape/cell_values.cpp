@@ -1,6 +1,5 @@
 #include "shape/cell_values.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace pelage {
@@ -28,11 +27,12 @@ void CellValues::at(const Point& place, const Point& normal, std::vector<Weight>
 }
 
 std::int32_t CellValues::nearest(const Point& place) const {
-  for (double radius = cells_.radius; radius <= 8 * cells_.radius; radius *= 2)
-    if (const std::int32_t cell = neighbours_.nearest(place, radius); cell >= 0) return cell;
-  const auto square = [&](const Point& p) { return dot(difference(p, place), difference(p, place)); };
-  const auto best = std::ranges::min_element(cells_.points, {}, square);
-  return static_cast<std::int32_t>(best - cells_.points.begin());
+  std::call_once(tree_made_, [&] {
+    TriangleMesh points{cells_.points, {}, {}};
+    for (std::int32_t i = 0; i < std::ssize(points.points); ++i) points.triangles.push_back({i, i, i});
+    tree_ = std::make_unique<const DistanceTree>(points);
+  });
+  return tree_->nearest(place);
 }
 
 }  // namespace pelage

@@ -2,11 +2,14 @@
 // Values anywhere on cells: v'(P) = sum v(Q) w(|P - Q| / s) / sum w with w(d) = 2 d^3 - 3 d^2 + 1 and s twice the
 // radius of repulsion (Turk 1991, section 5).
 
+#include <memory>
+#include <mutex>
 #include <utility>
 #include <vector>
 
 #include "pelage/cells.h"
 #include "shape/cell_neighbours.h"
+#include "shape/closest_point.h"
 
 namespace pelage {
 
@@ -28,6 +31,8 @@ class CellValues {
  private:
   const Cells& cells_;
   CellNeighbours neighbours_;
+  mutable std::once_flag tree_made_;
+  mutable std::unique_ptr<const DistanceTree> tree_;  ///< of the points
 };
 
 }  // namespace pelage

@@ -19,6 +19,10 @@ std::unique_ptr<const CellGround> ground_of(std::shared_ptr<const TriangleMesh> 
   return on->triangles.empty() ? cloud_ground(std::move(on)) : polygon_ground(std::move(on));
 }
 
+/// Seven cells to a wave: from here on less than a point of the cloud comes to a wave, and what is between them is
+/// guesswork, with cells that are crowded at the ends of what the points know, which makes steps tiny.
+constexpr double most_cells_per_point = 64;
+
 void require_number(std::size_t n) {
   if (n < fewest_cells || n > most_cells)
     throw Error(Fault::usage, "a shape can have " + std::to_string(fewest_cells) + " to " + std::to_string(most_cells) +
@@ -55,11 +59,13 @@ CellMaker::CellMaker(std::shared_ptr<const TriangleMesh> on) : on_(std::move(on)
 CellMaker::~CellMaker() = default;
 Box CellMaker::box() const { return ground_->box(); }
 std::size_t CellMaker::outliers() const { return ground_->outliers(); }
+double CellMaker::covered_share() const { return ground_->covered() ? ground_->covered()->share() : 0; }
 
 Cells CellMaker::make(std::size_t n) const {
   require_number(n);
   Cells cells;
   cells.on = on_;
+  cells.covered = ground_->covered();
   cells.radius = 2 * std::sqrt(ground_->area() / static_cast<double>(n));
   for (const CellPlace& p : relaxed_places(*ground_, n, cells.radius)) {
     cells.points.push_back(p.point);
@@ -75,6 +81,11 @@ std::size_t CellMaker::for_edge(double edge) const {
   if (!(n <= static_cast<double>(most_cells)))
     throw Error(Fault::usage, "the pattern is too fine for cells on this shape: it needs more than " +
                                   std::to_string(most_cells) + "; ask for a larger --size, or give --cells");
+  const std::size_t points = ground_->points_that_count();
+  if (points > 0 && n > most_cells_per_point * static_cast<double>(points))
+    throw Error(Fault::usage, "the pattern is too fine for " + std::to_string(points) +
+                                  " points, which are further apart than its waves; ask for a larger --size, or give "
+                                  "more points, or --cells");
   return std::max(fewest_cells, static_cast<std::size_t>(std::ceil(n)));
 }
 

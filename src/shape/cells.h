@@ -25,12 +25,15 @@ class CellMaker {
   /// n cells. Error(Fault::usage) for an n below fewest_cells or above most_cells.
   Cells make(std::size_t n) const;
   /// How many cells have neighbours `edge` apart in the mean, as the vertices of even triangles [world units].
-  /// Error(Fault::usage) for more than most_cells.
+  /// Error(Fault::usage) for more than most_cells, and for a cloud whose points are further apart than waves of such
+  /// edges would be.
   std::size_t for_edge(double edge) const;
   /// Of all that counts.
   Box box() const;
   /// Points of a cloud that do not count since they are far from all others.
   std::size_t outliers() const;
+  /// Of the area of polygons that lies inside other parts, where there are no cells.
+  double covered_share() const;
 
  private:
   std::shared_ptr<const TriangleMesh> on_;

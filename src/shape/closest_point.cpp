@@ -26,6 +26,15 @@ Point middle(const std::array<Point, 3>& t) {
   return {t[0][0] + t[1][0] + t[2][0], t[0][1] + t[1][1] + t[2][1], t[0][2] + t[1][2] + t[2][2]};
 }
 
+double square_distance(const Box& box, const Point& from) {
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double outside = std::max({box.low[k] - from[k], from[k] - box.high[k], 0.0});
+    sum += outside * outside;
+  }
+  return sum;
+}
+
 }  // namespace
 
 double square_distance(const Point& p, const Point& a, const Point& b, const Point& c) {
@@ -69,15 +78,6 @@ double DistanceTree::Corners::square_distance(const Point& from) const {
   return pelage::square_distance(from, corner[0], corner[1], corner[2]);
 }
 
-double DistanceTree::Box::square_distance(const Point& from) const {
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double outside = std::max({low[k] - from[k], from[k] - high[k], 0.0});
-    sum += outside * outside;
-  }
-  return sum;
-}
-
 DistanceTree::DistanceTree(const TriangleMesh& mesh) {
   for (const Triangle& t : mesh.triangles)
     triangles_.push_back(
@@ -89,13 +89,9 @@ DistanceTree::DistanceTree(const TriangleMesh& mesh) {
 void DistanceTree::build(std::size_t begin, std::size_t end) {
   const std::size_t number = nodes_.size();
   nodes_.emplace_back();
-  Box box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  Box box;
   for (std::size_t i = begin; i < end; ++i)
-    for (const Point& p : triangles_[i].corner)
-      for (std::size_t k = 0; k < 3; ++k) {
-        box.low[k] = std::min(box.low[k], p[k]);
-        box.high[k] = std::max(box.high[k], p[k]);
-      }
+    for (const Point& p : triangles_[i].corner) box.add(p);
   nodes_[number].box = box;
   if (end - begin <= leaf_size) {
     nodes_[number].first = static_cast<std::int32_t>(begin);
@@ -114,40 +110,62 @@ void DistanceTree::build(std::size_t begin, std::size_t end) {
   build(half, end);
 }
 
-double DistanceTree::distance(const Point& from) const {
-  double best = infinity;
+/// The square of the distance and the number of the nearest triangle.
+std::pair<double, std::int32_t> DistanceTree::search(const Point& from) const {
+  std::pair<double, std::int32_t> best = {infinity, -1};
   std::vector<std::int32_t> open;
   if (!nodes_.empty()) open.push_back(0);
   while (!open.empty()) {
     const std::int32_t number = open.back();
     open.pop_back();
     const Node& node = nodes_[number];
-    if (node.box.square_distance(from) >= best) continue;
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i)
-      best = std::min(best, triangles_[i].square_distance(from));
+    if (square_distance(node.box, from) > best.first) continue;
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+      const std::pair here = {triangles_[i].square_distance(from), triangles_[i].number};
+      if (best.second < 0 || here < best) best = here;
+    }
     if (node.count > 0) continue;
     const std::int32_t left = number + 1;
-    const bool left_first = nodes_[left].box.square_distance(from) <= nodes_[node.right].box.square_distance(from);
+    const bool left_first = square_distance(nodes_[left].box, from) <= square_distance(nodes_[node.right].box, from);
     open.push_back(left_first ? node.right : left);
     open.push_back(left_first ? left : node.right);
   }
-  return std::sqrt(best);
+  return best;
 }
 
-std::vector<std::int32_t> DistanceTree::within(const Point& from, double radius) const {
-  std::vector<std::int32_t> open, found;
+double DistanceTree::distance(const Point& from) const { return std::sqrt(search(from).first); }
+std::int32_t DistanceTree::nearest(const Point& from) const { return search(from).second; }
+
+/// Calls visit(number) for the triangles within a radius, until it returns false.
+template <class Visit>
+void DistanceTree::for_each_within(const Point& from, double radius, Visit&& visit) const {
+  std::vector<std::int32_t> open;
   if (!nodes_.empty()) open.push_back(0);
   while (!open.empty()) {
     const std::int32_t number = open.back();
     open.pop_back();
     const Node& node = nodes_[number];
-    if (node.box.square_distance(from) > radius * radius) continue;
+    if (square_distance(node.box, from) > radius * radius) continue;
     for (std::int32_t i = node.first; i < node.first + node.count; ++i)
-      if (triangles_[i].square_distance(from) <= radius * radius) found.push_back(triangles_[i].number);
+      if (triangles_[i].square_distance(from) <= radius * radius && !visit(triangles_[i].number)) return;
     if (node.count > 0) continue;
-    open.push_back(number + 1);
     open.push_back(node.right);
+    open.push_back(number + 1);
   }
+}
+
+bool DistanceTree::any_within(const Point& from, double radius) const {
+  bool any = false;
+  for_each_within(from, radius, [&](std::int32_t) { return !(any = true); });
+  return any;
+}
+
+std::vector<std::int32_t> DistanceTree::within(const Point& from, double radius) const {
+  std::vector<std::int32_t> found;
+  for_each_within(from, radius, [&](std::int32_t number) {
+    found.push_back(number);
+    return true;
+  });
   std::ranges::sort(found);
   return found;
 }

@@ -20,9 +20,14 @@ std::vector<Point> vertex_normals(const std::vector<Triangle>& triangles, const 
 }
 
 std::vector<Point> vertex_normals(const TriangleMesh& mesh) {
-  const Attribute* given = mesh.triangles.empty() ? mesh.find("normal") : nullptr;
-  std::vector<Point> normals = vertex_normals(mesh.triangles, mesh.points);
-  if (!given || given->components != 3 || given->domain != Domain::vertex) return normals;
+  return mesh.triangles.empty() ? normals_of(mesh) : vertex_normals(mesh.triangles, mesh.points);
+}
+
+std::vector<Point> normals_of(const TriangleMesh& mesh) {
+  const Attribute* given = mesh.find("normal");
+  if (!given || given->components != 3 || given->domain != Domain::vertex)
+    return vertex_normals(mesh.triangles, mesh.points);
+  std::vector<Point> normals(mesh.points.size());
   for (std::size_t v = 0; v < normals.size(); ++v)
     normals[v] = unit({given->values[3 * v], given->values[3 * v + 1], given->values[3 * v + 2]});
   return normals;

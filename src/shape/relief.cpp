@@ -64,13 +64,4 @@ TriangleMesh raised(TriangleMesh mesh, const std::vector<double>& height) {
   return mesh;
 }
 
-std::vector<Point> normals_of(const TriangleMesh& mesh) {
-  const Attribute* given = mesh.find("normal");
-  if (!given || given->components != 3 || given->domain != Domain::vertex) return vertex_normals(mesh);
-  std::vector<Point> normals(mesh.points.size());
-  for (std::size_t v = 0; v < normals.size(); ++v)
-    normals[v] = unit({given->values[3 * v], given->values[3 * v + 1], given->values[3 * v + 2]});
-  return normals;
-}
-
 }  // namespace pelage

@@ -19,7 +19,4 @@ std::vector<Point> relief_normals(const TriangleMesh& mesh, const std::vector<Po
 /// The mesh with every vertex moved along its "normal" by `height`, and the normals of the moved surface.
 TriangleMesh raised(TriangleMesh mesh, const std::vector<double>& height);
 
-/// The unit normals at the vertices: the attribute "normal" if it is there, or else those of the triangles.
-std::vector<Point> normals_of(const TriangleMesh& mesh);
-
 }  // namespace pelage

@@ -44,8 +44,8 @@ struct Place {
 
 class Packer {
  public:
-  Packer(const std::vector<Chart>& charts, std::int32_t cells, std::int32_t margin)
-      : charts_(charts), cells_(cells), margin_(margin), order_(charts.size()) {
+  Packer(const std::vector<Chart>& charts, std::int32_t cells, std::int32_t margin, const Progress& progress)
+      : charts_(charts), progress_(progress), cells_(cells), margin_(margin), order_(charts.size()) {
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     std::vector<double> size;
     for (const Chart& c : charts) size.push_back(flat_box(c.uv).height() + flat_box(c.uv).width());
@@ -61,6 +61,7 @@ class Packer {
   bool fits(double scale, std::vector<Place>& places) const;
 
   const std::vector<Chart>& charts_;
+  const Progress& progress_;
   std::int32_t cells_, margin_;
   std::vector<std::size_t> order_;  ///< largest first
   double area_ = 0;
@@ -70,6 +71,7 @@ bool Packer::fits(double scale, std::vector<Place>& places) const {
   Raster raster(cells_, (margin_ + 1) / 2);
   places.assign(charts_.size(), {});
   for (const std::size_t c : order_) {
+    if (progress_ && !progress_("packing", -1)) throw Error(Fault::cancelled, "interrupted");
     std::array<Candidate, turns> candidates;
     parallel_chunks(turns,
                     [&](std::size_t k) { candidates[k] = Candidate(charts_[c], static_cast<int>(k), scale, raster); });
@@ -90,7 +92,7 @@ double Packer::pack(std::vector<Place>& places) {
     if (fitting < least)
       throw Error(Fault::usage, counted(charts_.size(), "chart") +
                                     " with their margins do not fit the atlas; take a "
-                                    "higher --resolution or a smaller --margin");
+                                    "higher resolution or a smaller margin");
     failing = fitting;
   }
   for (int k = 0; k < halvings; ++k) {
@@ -113,15 +115,14 @@ constexpr double steps_of_uv = 1 << 24;
 
 }  // namespace
 
-double pack(std::vector<Chart>& charts, int resolution, double margin) {
+double pack(std::vector<Chart>& charts, int resolution, double margin, const Progress& progress) {
   const std::int32_t cells = std::min(resolution, most_cells);
   const double wanted = std::ceil(margin * cells / resolution);
   if (wanted >= cells)
-    throw Error(Fault::usage,
-                "a margin of " + number(margin) + " texels is as wide as the atlas; take a smaller --margin");
+    throw Error(Fault::usage, "a margin of " + number(margin) + " texels is as wide as the atlas; take a smaller one");
   parallel_chunks(charts.size(), [&](std::size_t c) { charts[c].uv = in_smallest_box(charts[c].uv); });
   std::vector<Place> places;
-  const double scale = Packer(charts, cells, static_cast<std::int32_t>(wanted)).pack(places);
+  const double scale = Packer(charts, cells, static_cast<std::int32_t>(wanted), progress).pack(places);
   parallel_chunks(charts.size(), [&](std::size_t c) {
     charts[c].uv = in_turn(charts[c], places[c].turn, scale);
     for (Flat& p : charts[c].uv) {

@@ -110,8 +110,7 @@ Unwrapped unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Pr
   const LinkedFaces faces = link_faces(mesh, result.findings);
   std::vector<Chart> charts = make_charts(faces, progress);
   result.report = measured(faces, charts);
-  if (progress && !progress("packing", 0)) throw Error(Fault::cancelled, "interrupted");
-  result.report.scale = pack(charts, options.resolution, options.margin) * faces.scale;
+  result.report.scale = pack(charts, options.resolution, options.margin, progress) * faces.scale;
   result.report.efficiency = covered(charts);
   note_lost(faces, charts, result.findings);
   CornerValues values(mesh, faces);

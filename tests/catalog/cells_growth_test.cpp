@@ -15,6 +15,7 @@
 #include "shape/cell_neighbours.h"
 #include "shape/cells.h"
 #include "shape/point_index.h"
+#include "shape/vectors.h"
 #include "support/soups.h"
 
 namespace pelage {
@@ -60,14 +61,29 @@ double spacing(const CoatRun& run) {
 
 const std::string spotted = "model = \"turing\"\nsize = 0.1\nuntil = 600\n";
 
+/// Means over seeds: on one animal are about 60 spots, of which two or three more or less are chance.
+struct Sizes {
+  double spacing = 0, wavelength = 0;
+};
+Sizes sizes_of(const TriangleMesh& shape, const std::string& method) {
+  constexpr int seeds = 3;
+  Sizes mean;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const CoatRun run = grown(shape, spotted + "method = \"" + method + "\"\nseed = " + std::to_string(seed) + "\n");
+    mean.spacing += spacing(run) / seeds;
+    mean.wavelength += wavelength(run) / seeds;
+  }
+  return mean;
+}
+
 /// The substrate of the model is the same function of the place for all methods.
 TEST(CellsGrowth, SpotsAreAsFarApartAsOnLoopElements) {
   for (const char* name : {"builtin:sphere?n=2562", "builtin:animal?n=3000"}) {
     const TriangleMesh shape = load_shape(name);
-    const CoatRun loop = grown(shape, spotted + "method = \"loop\"\n");
+    const Sizes loop = sizes_of(shape, "loop");
     for (const char* method : {"cells", "turk-cells"}) {
-      const CoatRun run = grown(shape, spotted + "method = \"" + method + "\"\n");
-      const double by_number = spacing(run) / spacing(loop), by_slopes = wavelength(run) / wavelength(loop);
+      const Sizes run = sizes_of(shape, method);
+      const double by_number = run.spacing / loop.spacing, by_slopes = run.wavelength / loop.wavelength;
       RecordProperty(std::string(method) + " over loop on " + name + ", by number", std::to_string(by_number));
       RecordProperty(std::string(method) + " over loop on " + name + ", by slopes", std::to_string(by_slopes));
       const double bound =
@@ -201,6 +217,26 @@ TEST(CellsGrowth, CrossesCracks) {
   EXPECT_GT(parts.spots, 1.7);
 }
 
+/// Two unit spheres that meet at a circle are one skin: what lies inside of the other has no pattern.
+TEST(CellsGrowth, CrossesTheCircleWhereSpheresMeet) {
+  constexpr double distance = 1.2, size = 0.35;
+  const TriangleMesh sphere = load_shape("builtin:sphere?n=2562");
+  const std::size_t part = sphere.triangles.size();
+  const TriangleMesh two = two_spheres(distance, sphere);
+  const Seams whole = seams_of(two, part, 0, size, 3);
+  record("spheres", whole);
+  EXPECT_NEAR(whole.slope, 1, 0.1);
+  EXPECT_LT(whole.correlation, 0.1);
+  EXPECT_NEAR(whole.spots, 1, 0.4);
+  const auto outside = [&](const Point& p, std::size_t which) {
+    return length(difference(p, {which == 0 ? distance : 0, 0, 0})) > 1;
+  };
+  const Seams apart = seams_of(two, part, 12, size, 1, outside);
+  record("spheres grown apart", apart);
+  EXPECT_GT(apart.slope, 3);
+  EXPECT_GT(apart.correlation, 0.3);
+}
+
 /// A coat of a cloud is as large as that of the mesh whose points it has, and comes back at the points themselves.
 TEST(CellsGrowth, CloudsGetTheCoatOfTheirSurface) {
   const TriangleMesh mesh = load_shape("builtin:animal?n=12000"), cloud = cloud_of(mesh);
@@ -254,6 +290,9 @@ TEST(CellsGrowth, SaysWhatItCannotDo) {
   const TriangleMesh sphere = load_shape("builtin:sphere?n=642");
   refused("method = \"loop\"\ncells = 500\n", sphere, "has no cells");
   refused("cells = 3\n", sphere, "16 to");
+  TriangleMesh few = cloud_of(sphere);
+  few.points.resize(40);
+  refused("size = 0.04\n", few, "too fine for 40 points");
   refused("method = \"loop\"\n", cloud_of(sphere), "take \"cells\"");
   refused("method = \"cells\"\nsize = 0.0001\n", sphere, "too fine");
   refused("", TriangleMesh{{}, {}, {}}, "points");

@@ -222,6 +222,7 @@ TEST(Formats, AllSayTheSameColourWithinHalfAByte) {
     }
   coat.set(color);
   for (const std::string& extension : mesh_extensions()) {
+    if (extension == ".3mf") continue;  // is not read; tests/scripts/print_test.sh does it
     const std::vector<std::string> lost = losses(coat, extension);
     if (!lost.empty()) {
       EXPECT_EQ(extension, ".stl");
@@ -314,6 +315,7 @@ std::string summary(const PolygonMesh& mesh) {
 }
 
 void check_way_back(const PolygonMesh& mesh, const std::string& extension, const std::string& row) {
+  if (extension == ".3mf") return;  // is not read
   const ShapeFile file = read_shape_bytes(mesh_bytes(mesh, extension), "a" + extension);
   const PolygonMesh& back = file.source->polygons;
   if (row.starts_with("vector")) {  // PLY has one property for each component

@@ -56,7 +56,7 @@ TEST(WriteMesh, CapitalExtension) {
 }
 
 TEST(WriteMesh, UnknownExtensionsAreRefusedBeforeAnyWork) {
-  expect_error(Fault::usage, "known: .glb, .obj, .off, .ply, .stl, .vtp", [] { check_mesh_path("a.fbx"); });
+  expect_error(Fault::usage, "known: .3mf, .glb, .obj, .off, .ply, .stl, .vtp", [] { check_mesh_path("a.fbx"); });
   expect_error(Fault::usage, "did you mean \".ply\"?", [] { check_mesh_path("a.pyl"); });
   expect_error(Fault::usage, "needs an extension", [] { check_mesh_path("out"); });
   expect_error(Fault::output, "does not exist", [] { check_mesh_path("no/such/folder/a.glb"); });
@@ -93,7 +93,10 @@ TEST(WriteMesh, TheSameBytesInEveryLocale) {
     {
       const testing::DecimalComma elsewhere;
       save(mesh, there.string());
-      EXPECT_TRUE(test::same_places(read_shape(here.string()).mesh, read_shape(there.string()).mesh)) << extension;
+      const std::vector<std::string> readable = readable_extensions();
+      const bool is_read = std::ranges::count(readable, extension) > 0;
+      EXPECT_TRUE(!is_read || test::same_places(read_shape(here.string()).mesh, read_shape(there.string()).mesh))
+          << extension;
     }
     EXPECT_EQ(contents(there), contents(here)) << extension;
   }

@@ -8,11 +8,9 @@
 #include <numbers>
 
 #include "base/parallel.h"
-#include "base/random.h"
 #include "base/srgb.h"
-#include "discretise/surface_evaluator.h"
+#include "look/baked_coat.h"
 #include "pelage/io.h"
-#include "shape/generators.h"
 #include "shape/locate.h"
 #include "shape/vectors.h"
 
@@ -20,116 +18,6 @@ namespace pelage {
 namespace {
 
 using std::numbers::pi;
-using Field = double (*)(const Point&);
-
-/// The built-in torus with its two angles as uv, which has seams along both; `mirrored`: half of it once more the other
-/// way round, beside the rest.
-TriangleMesh torus(int vertices) {
-  TriangleMesh mesh = builtin_shape("builtin:torus?n=" + std::to_string(vertices));
-  Attribute uv{"uv", 2, Domain::corner, {}};
-  for (const Triangle& t : mesh.triangles) {
-    std::array<double, 2> first{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Point& p = mesh.points[static_cast<std::size_t>(t[k])];
-      std::array<double, 2> turns = {std::atan2(p[1], p[0]) / (2 * pi) + 0.5,
-                                     std::atan2(p[2], std::hypot(p[0], p[1]) - 1) / (2 * pi) + 0.5};
-      if (k == 0) first = turns;
-      for (std::size_t c = 0; c < 2; ++c) {
-        turns[c] -= std::round(turns[c] - first[c]);
-        uv.values.push_back(0.1 + 0.7 * turns[c]);
-      }
-    }
-  }
-  mesh.set(std::move(uv));
-  return mesh;
-}
-
-/// A field "u" on an even mesh of its own, as runs have it, or on the Loop elements of the shape.
-struct Coat {
-  CoatFields fields;
-  Hierarchy levels;
-  std::vector<Point> control;
-
-  Coat(TriangleMesh shape, const Method& method, double edge, Field field)
-      : levels(make_topology(shape.points.size(), shape.triangles), method.refine), control(shape.points) {
-    if (method.own_mesh) {
-      fields.mesh = std::make_shared<const SimulationMesh>(levels, control, SimulationMesh::Edge{edge, {}}, 1'000'000);
-      fields.space = method.make_space(fields.mesh->shared_topology(), fields.mesh->points(control));
-    } else {
-      fields.space = method.make_space(levels.shared_topology(0), control);
-    }
-    fields.points = shape.points;
-    fields.shape = std::make_shared<const TriangleMesh>(std::move(shape));
-    fields.hierarchy = std::make_shared<const Hierarchy>(levels);
-    fields.method = &method;
-    fields.control = control;
-    fields.species = {"u"};
-    fields.uniform = {0};
-    fields.wavelength = 12 * edge;
-    const SampledMass mass = fields.space->sampled(SampleRule::vertices);
-    Vector samples(mass.sampling->count());
-    for (Eigen::Index i = 0; i < samples.size(); ++i)
-      samples[i] = field(mass.sampling->position[static_cast<std::size_t>(i)]);
-    const Vector u = coefficients_from_samples(*mass.sampling, *mass.mass, samples);
-    fields.coefficients.emplace_back(u.begin(), u.end());
-  }
-
-  /// The limit surface of the shape itself, without the mesh of the fields.
-  SurfaceEvaluator surface() const {
-    const TriangleMesh& shape = *fields.shape;
-    return SurfaceEvaluator(loop_method.make_space(levels.shared_topology(0), shape.points), 0, {});
-  }
-};
-
-/// White paint as thick as the formula says, on black.
-Look painted(const std::string& formula) {
-  Look look;
-  look.layers.resize(2);
-  look.layers[0].color = {"#000000", {}};
-  look.layers[1].color = {"#ffffff", {}};
-  look.layers[1].opacity = {formula, {}};
-  return look;
-}
-
-BakedCoat baked(const Coat& coat, const Look& look, int size, bool normals = false) {
-  const Paint paint = resolve_paint(look, coat.fields.species);
-  const Tessellation t = tessellate(coat.fields, tessellation_request(look, paint));
-  const TriangleMesh& shape = *coat.fields.shape;
-  const UvLayout layout(shape.triangles, *shape.find("uv"), size);
-  const ShadingFrames frames(shape);
-  return bake(CoatSampler(coat.fields, t, paint), make_palette(paint, t.samples, coat.fields.uniform), layout,
-              normals ? &frames : nullptr);
-}
-
-/// What a viewer finds between the middles of texels, in linear light.
-double seen(const Pixels& image, double u, double v) {
-  const double x = u * image.width - 0.5, y = (1 - v) * image.height - 0.5;
-  const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
-  double sum = 0;
-  for (const int di : {0, 1})
-    for (const int dj : {0, 1}) {
-      const std::size_t texel = static_cast<std::size_t>(j + dj) * image.width + static_cast<std::size_t>(i + di);
-      sum += (di ? x - i : 1 - x + i) * (dj ? y - j : 1 - y + j) *
-             linear_from_srgb(image.bytes[static_cast<std::size_t>(image.channels) * texel] / 255.0);
-    }
-  return sum;
-}
-
-/// visit(place, uv) for places on all faces; every third one on an edge, where the seams are.
-template <class Visit>
-void at_random_places(const TriangleMesh& mesh, std::size_t count, const Visit& visit) {
-  const Attribute& uv = *mesh.find("uv");
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t face = hash(7, i) % mesh.triangles.size();
-    double v = uniform(i, 0), w = i % 3 == 0 ? 0 : uniform(i, 1);
-    if (v + w > 1) v = 1 - v, w = 1 - w;
-    std::array<double, 2> at{};
-    for (std::size_t c = 0; c < 2; ++c)
-      for (const auto& [k, share] : {std::pair{0, 1 - v - w}, {1, v}, {2, w}})
-        at[c] += share * uv.values[2 * (3 * face + static_cast<std::size_t>(k)) + c];
-    visit(MeshPlace{static_cast<Index>(face), v, w}, at);
-  }
-}
 
 double waves(const Point& p) { return 0.5 + 0.3 * std::sin(5 * p[0]) * std::cos(4 * p[1] + 3 * p[2]); }
 
@@ -155,6 +43,21 @@ TEST(Bake, ShowsTheFieldWhereTheSurfaceIsSeamsIncluded) {
   }
 }
 
+/// Hills of nine texels and more, at which plain samples miss by 3.8/255.
+TEST(Bake, InterpolationTakesLittleAwayFromHills) {
+  const Field hills = [](const Point& p) { return 0.5 + 0.4 * std::sin(15 * p[0]) * std::cos(15 * p[1] + 9 * p[2]); };
+  const Coat coat(torus(1000), remeshed_method, 0.02, hills);
+  const BakedCoat result = baked(coat, painted("u"), 384);
+  const SurfaceEvaluator surface = coat.surface();
+  std::vector<double> errors;
+  at_random_places(*coat.fields.shape, 30'000, [&](const MeshPlace& place, const std::array<double, 2>& uv) {
+    const double exact = hills(surface.at(place.face, place.v, place.w).position);
+    errors.push_back(255 * std::abs(seen(result.tiles[0].color, uv[0], uv[1]) - exact));
+  });
+  std::ranges::sort(errors);
+  EXPECT_LT(errors[errors.size() * 999 / 1000], 3);
+}
+
 /// A mesh with uv of its own, which is laid into the image where it reaches over several.
 TriangleMesh shared_mesh(const std::string& path) {
   TriangleMesh mesh = read_shape(path).mesh;
@@ -166,18 +69,10 @@ TriangleMesh shared_mesh(const std::string& path) {
   return mesh;
 }
 
-/// How far it is on the mesh, at most, for a whole image along uv, on a face: the norm of the derivative.
-double stretch(const TriangleMesh& mesh, std::size_t face) {
-  const std::vector<double>& uv = mesh.find("uv")->values;
-  const auto corner = [&](std::size_t k) { return mesh.points[static_cast<std::size_t>(mesh.triangles[face][k])]; };
-  const auto along = [&](std::size_t k, std::size_t c) { return uv[2 * (3 * face + k) + c] - uv[6 * face + c]; };
-  const double det = along(1, 0) * along(2, 1) - along(2, 0) * along(1, 1);
-  const Point b = difference(corner(1), corner(0)), c = difference(corner(2), corner(0));
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-    for (const double d : {b[k] * along(2, 1) - c[k] * along(1, 1), c[k] * along(1, 0) - b[k] * along(2, 0)})
-      sum += d * d / (det * det);
-  return std::sqrt(sum);
+double length_of_texel(const TriangleMesh& mesh, Index face, int size) {
+  const auto first = mesh.find("uv")->values.begin() + 6 * face;
+  return texel_length({mesh.points, {mesh.triangles[static_cast<std::size_t>(face)]}, {}, {}, {}},
+                      {"uv", 2, Domain::corner, {first, first + 6}}, size, 0);
 }
 
 double fine_waves(const Point& p) { return std::sin(50 * p[0]) * std::cos(40 * p[1] + 30 * p[2]); }
@@ -198,14 +93,13 @@ TEST(Bake, ShowsTheFieldOfItsOwnMeshOnMeshesOfOthers) {
     const Topology& mesh = *coat.fields.mesh->shared_topology();
     const SurfaceWalk walk(mesh, coat.fields.space->control());
     const MeshFields anywhere(mesh.triangles, coat.fields.space->control(), coat.fields.coefficients);
-    constexpr double wave = 0.1, texels_of_wave = 20;
+    constexpr double wave = 0.1, texels_of_wave = 12;
     double sum = 0;
     std::vector<double> errors;
-    at_random_places(*coat.fields.shape, 30'000, [&](const MeshPlace& place, std::array<double, 2> uv) {
+    at_random_places(*coat.fields.shape, 100'000, [&](const MeshPlace& place, std::array<double, 2> uv) {
       for (double& x : uv) x -= std::floor(x);
       if (std::min(uv[0], uv[1]) < 0.001 || std::max(uv[0], uv[1]) > 0.999) return;  // seen() does not repeat
-      // Where fewer texels go to a wave, what is between them is the business of viewers.
-      if (stretch(*coat.fields.shape, static_cast<std::size_t>(place.face)) * texels_of_wave > 2048 * wave) return;
+      if (texels_of_wave * length_of_texel(*coat.fields.shape, place.face, 2048) > wave) return;
       const SurfaceSample at = surface.at(place.face, place.v, place.w);
       const MeshPlace nearest = walk.search(Eigen::Vector3d(at.position.data()), Eigen::Vector3d(at.normal.data()));
       errors.push_back(255 * std::abs(srgb_from_linear(seen(result.tiles[0].color, uv[0], uv[1])) -
@@ -214,7 +108,7 @@ TEST(Bake, ShowsTheFieldOfItsOwnMeshOnMeshesOfOthers) {
     });
     std::ranges::sort(errors);
     EXPECT_EQ(result.hidden.count, 0u) << name;
-    EXPECT_GT(errors.size(), 15'000u) << name;
+    EXPECT_GT(errors.size(), 75'000u) << name;
     RecordProperty(std::string(name) + "_count", std::to_string(errors.size()));
     RecordProperty(std::string(name) + "_mean", std::to_string(sum / static_cast<double>(errors.size())));
     RecordProperty(std::string(name) + "_999", std::to_string(errors[errors.size() * 999 / 1000]));

@@ -34,8 +34,8 @@ TEST(FlatTile, ReproducesLinearColoursWithYUpwards) {
 TEST(ContactSheet, TilesStandInOrderWithTheLowestRowBelow) {
   ContactSheet sheet;
   sheet.tile = 50;
-  sheet.x = {1, 2, 3};
-  sheet.y = {10, 20};
+  sheet.x = {"1", "2", "3"};
+  sheet.y = {"10", "20"};
   for (int c = 0; c < 6; ++c) {
     Image flat{50, 50, std::vector<float>(3 * 50 * 50, 0.0F)};
     for (std::size_t i = 0; i < flat.rgb.size(); i += 3) flat.rgb[i] = 0.1F * static_cast<float>(c + 1);
@@ -56,8 +56,8 @@ TEST(ContactSheet, SheetsAreAboutOnePageLarge) {
   for (const int columns : {1, 6, 20}) {
     ContactSheet sheet;
     sheet.tile = sheet_tile(columns, 2);
-    sheet.x.assign(static_cast<std::size_t>(columns), 0.25);
-    sheet.y = {1, 2};
+    sheet.x.assign(static_cast<std::size_t>(columns), "0.25");
+    sheet.y = {"1", "2"};
     sheet.cells.assign(2 * static_cast<std::size_t>(columns), {{}, "uniform", true});
     const Image image = draw(sheet);
     EXPECT_LE(image.width, 1800);

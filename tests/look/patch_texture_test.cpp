@@ -12,6 +12,7 @@
 #include "catalog/shapes.h"
 #include "discretise/grid_space.h"
 #include "look/tessellation.h"
+#include "look/viewer.h"
 #include "pelage/error.h"
 #include "shape/atlas.h"
 #include "shape/vectors.h"
@@ -35,16 +36,6 @@ CoatFields coat_on(Atlas atlas, const Field& field) {
   return f;
 }
 
-/// White paint as thick as the formula says, on black: its values are linear light.
-Look painted(const std::string& formula) {
-  Look look;
-  look.layers.resize(2);
-  look.layers[0].color = {"#000000", {}};
-  look.layers[1].color = {"#ffffff", {}};
-  look.layers[1].opacity = {formula, {}};
-  return look;
-}
-
 Atlas atlas_of(const std::string& name) { return *as<Atlas>(find_shape(name).nodes); }
 
 /// A flat sheet from `corner` on, along x and y, or along y and x.
@@ -59,20 +50,6 @@ Atlas::Patch flat_patch(const std::string& name, std::int32_t nx, std::int32_t n
       patch.grid.points.push_back({x0 + x, y, 0});
     }
   return patch;
-}
-
-/// What a viewer shows at a place of an image, between the middles of texels.
-double sampled(const Image& image, double u, double v) {
-  const double x = u * image.width - 0.5, y = (1 - v) * image.height - 0.5;
-  const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
-  double sum = 0;
-  for (const int di : {0, 1})
-    for (const int dj : {0, 1}) {
-      const int column = std::clamp(i + di, 0, image.width - 1), row = std::clamp(j + dj, 0, image.height - 1);
-      sum += (di ? x - i : 1 - x + i) * (dj ? y - j : 1 - y + j) *
-             image.rgb[3 * (static_cast<std::size_t>(row) * image.width + column)];
-    }
-  return sum;
 }
 
 /// As graphics hardware makes smaller copies.
@@ -156,7 +133,7 @@ TEST(PatchImages, ShowTheFieldWhereItIs) {
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t c = 0; c < 3; ++c)
         p[c] += share[k] * coat.shape->points[static_cast<std::size_t>(coat.shape->triangles[f][k])][c];
-    EXPECT_NEAR(sampled(image, u, v), field(p), 1e-6);
+    EXPECT_NEAR(seen(image, u, v), field(p), 1e-6);
   });
 }
 
@@ -178,7 +155,7 @@ TEST(PatchImages, SmallerCopiesFindNoOtherColours) {
   for (int copy = 0; (2 << copy) <= layout.gutter; ++copy) {
     at_places(*coat.shape, patch_uv(atlas, layout), [&](std::size_t f, const auto&, double u, double v) {
       const Point& p = coat.shape->points[static_cast<std::size_t>(coat.shape->triangles[f][0])];
-      EXPECT_NEAR(sampled(image, u, v), p[0] > 1.5 ? 1 : 0, 1e-9) << copy;
+      EXPECT_NEAR(seen(image, u, v), p[0] > 1.5 ? 1 : 0, 1e-9) << copy;
     });
     image = halved(image);
   }

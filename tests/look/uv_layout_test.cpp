@@ -49,6 +49,20 @@ TEST(UvLayout, TexelsShowTheFaceAroundThem) {
   EXPECT_FALSE(layout.repeats());
 }
 
+/// A square and one a tenth as wide in uv, both three units high and two wide.
+TEST(UvLayout, TexelsAreAsLongAsTheyAreOnTheLargestPart) {
+  TriangleMesh mesh;
+  for (const double x : {0.0, 5.0})
+    for (const Point& p : {Point{x, 0, 0}, {x + 2, 0, 0}, {x + 2, 0, 3}, {x, 0, 3}}) mesh.points.push_back(p);
+  mesh.triangles = square;
+  for (const Triangle& t : square) mesh.triangles.push_back({t[0] + 4, t[1] + 4, t[2] + 4});
+  Attribute uv = square_uv(0, 0, 0.5);
+  const Attribute small = square_uv(0.6, 0, 0.05);
+  uv.values.insert(uv.values.end(), small.values.begin(), small.values.end());
+  EXPECT_DOUBLE_EQ(texel_length(mesh, uv, 100, 0.55), 3 / 50.0);
+  EXPECT_DOUBLE_EQ(texel_length(mesh, uv, 100, 0.45), 3 / 5.0);
+}
+
 TEST(UvLayout, WholeTilesAreImagesOfTheirOwn) {
   std::vector<Triangle> triangles = square;
   Attribute uv = square_uv(0, 0, 1);

@@ -169,9 +169,9 @@ double luminance(const Image& image, std::size_t pixel) {
 
 /// Compares a picture of the usual quality with one of many rays whose light is not smoothed: root mean square of the
 /// difference over the mean luminance, and largest relative difference of the means over squares.
-std::array<double, 2> error_of_usual_quality(const TriangleMesh& mesh) {
+std::array<double, 2> error_of_usual_quality(const TriangleMesh& mesh, int size = 128) {
   PictureOptions options;
-  options.width = options.height = 128;
+  options.width = options.height = size;
   PictureScene scene(mesh);
   const Image usual = scene.render(options);
   options.samples = 512;
@@ -200,6 +200,35 @@ TEST(Picture, StripesStaySharp) {
   const auto [deviation, worst] = error_of_usual_quality(striped_ball());
   EXPECT_LT(deviation, 0.016);
   EXPECT_LT(worst, 0.03);
+}
+
+TriangleMesh finished_ball(const std::vector<std::pair<const char*, double>>& channels) {
+  TriangleMesh mesh = ball(0.8, 0.6, 0.4);
+  for (const auto& [name, value] : channels)
+    mesh.set({name, 1, Domain::vertex, std::vector<double>(mesh.points.size(), value)});
+  return mesh;
+}
+
+TEST(Picture, MaterialsAreThoseOfManyPaths) {
+  const std::pair<const char*, double> frosted{"material_roughness", 0.5}, brushed{"material_roughness", 0.3};
+  const auto metal = error_of_usual_quality(finished_ball({brushed, {"material_metalness", 1}}), 64),
+             gloss = error_of_usual_quality(finished_ball({brushed}), 64),
+             glass = error_of_usual_quality(
+                 finished_ball({frosted, {"material_transmission", 1}, {"material_thickness", 2}}), 64);
+  EXPECT_LT(metal[0], 0.09);
+  EXPECT_LT(gloss[0], 0.025);
+  EXPECT_LT(glass[0], 0.045);
+  for (const auto& [deviation, worst] : {metal, gloss, glass}) EXPECT_LT(worst, 0.08);
+}
+
+TEST(Picture, MaterialsHaveTheSameBitsForAnyNumberOfThreads) {
+  const TriangleMesh mesh = finished_ball({{"material_roughness", 0.4}, {"material_transmission", 0.5}});
+  std::vector<std::vector<float>> pictures;
+  for (const int threads : {1, 3}) {
+    const ThreadLimit limit(threads);
+    pictures.push_back(render(mesh, small()).rgb);
+  }
+  EXPECT_EQ(pictures[0], pictures[1]);
 }
 
 /// A green ball between a small red one and the key lamp, or beside that way.

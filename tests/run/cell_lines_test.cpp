@@ -10,6 +10,7 @@
 #include "shape/cell_neighbours.h"
 #include "shape/cells.h"
 #include "shape/generators.h"
+#include "shape/point_index.h"
 #include "support/soups.h"
 
 namespace pelage {
@@ -59,10 +60,16 @@ TEST(CellLines, FollowTheFewThatAreGiven) {
 /// Root mean square over all cells of the sine of the angle to the lines of a mesh at its nearest vertices.
 double difference_to_mesh(const TriangleMesh& mesh, const std::vector<Point>& directions, const Cells& cells,
                           const std::vector<Point>& lines) {
-  const CellNeighbours vertices(mesh.points, directions, cells.radius);
+  const PointIndex vertices(mesh.points, cells.radius);
   double sum = 0;
   for (std::size_t i = 0; i < cells.nodes(); ++i) {
-    const auto v = static_cast<std::size_t>(vertices.nearest(cells.points[i], cells.radius));
+    std::size_t v = 0;
+    double least = cells.radius * cells.radius;
+    vertices.for_each_within(cells.points[i], cells.radius, [&](std::int32_t j, double square) {
+      if (square > least) return;
+      least = square;
+      v = static_cast<std::size_t>(j);
+    });
     EXPECT_NEAR(length(lines[i]), 1, 1e-9);
     EXPECT_NEAR(dot(lines[i], cells.normals[i]), 0, 1e-9);
     const Point there = tangential(directions[v], cells.normals[i]);

@@ -44,10 +44,10 @@ grep -qE '^pelage [0-9]+\.[0-9]+\.[0-9]+$' stdout || fail "--version says $(cat 
 "$pelage" >stdout 2>stderr
 [ $? -eq 2 ] && [ ! -s stdout ] && grep -q Usage stderr || fail "no arguments: help on stderr and exit code 2 expected"
 succeed --help
-for command in grow check models formulas analyse map gallery recipes fair field unwrap compare verify; do
+for command in grow check models formulas analyse map gallery sheet measure recipes fair field unwrap compare verify; do
   grep -q "^  $command " stdout || fail "--help does not list $command"
 done
-for command in grow check models formulas analyse map gallery recipes fair field unwrap compare verify; do
+for command in grow check models formulas analyse map gallery sheet measure recipes fair field unwrap compare verify; do
   succeed $command --help
   cp stdout help
   succeed help $command

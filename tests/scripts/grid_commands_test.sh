@@ -97,7 +97,6 @@ refused 2 'show other surfaces than that of the shape' grow builtin:sphere --sol
 refused 2 'a line does in the course of time' grow 'builtin:tile?n=48' --plot a.png
 refused 2 'a block has no height' grow 'builtin:box?n=8' --model turing --size 4px --height-map a.png
 refused 2 'for sheets of grids' grow 'builtin:sphere?n=642' --height-map a.png
-refused 2 'the shape has no uv' grow 'builtin:sphere?n=642' --bake 256 -o a.glb
 refused 2 'leave --flat and --detail out' grow 'builtin:sphere?n=642' --bake 256 --flat -o a.glb
 refused 2 'shows an image on a mesh' grow builtin:vase --bake 256 -o a.ply
 refused 2 'at most 16384' grow builtin:vase --bake 100000 -o a.glb

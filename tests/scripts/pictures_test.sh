@@ -26,7 +26,7 @@ ball=(grow 'builtin:animal?n=800' --model turing --size 0.2 --steps 5 --detail 0
 draws "${ball[@]}" --picture plain.png
 draws "${ball[@]}" --picture quarter.png --view three-quarter
 draws "${ball[@]}" --picture side.png --view side
-draws "${ball[@]}" --picture turned.png --azimuth 90 --elevation 8
+draws "${ball[@]}" --picture turned.png --azimuth 180 --elevation 8  # the cub looks to +x
 draws "${ball[@]}" --picture higher.png --view side --elevation 50
 draws "${ball[@]}" --picture z.png --view front --up z
 draws "${ball[@]}" --picture bright.png --exposure 1

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "shape/generators.h"
+#include "shape/normals.h"
 #include "shape/vectors.h"
 
 namespace pelage {

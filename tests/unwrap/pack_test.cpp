@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "pelage/error.h"
 #include "unwrap/outline.h"
 #include "unwrap/raster.h"
 
@@ -62,6 +63,14 @@ TEST(Pack, TurnedRectanglesFillASquareBetweenThem) {
   }
   EXPECT_GT(area, 0.45);  // side by side they are 4 long: half of the square
   EXPECT_LE(area, 1);
+}
+
+TEST(Pack, HearsAWishToStopWithinATrial) {
+  std::vector<Chart> charts(20, rectangle(2, 1, 0));
+  int asked = 0;
+  const Progress third_time = [&](std::string_view, double) { return ++asked < 3; };
+  EXPECT_THROW(pack(charts, 1024, 0, third_time), Error);
+  EXPECT_EQ(asked, 3);
 }
 
 }  // namespace
