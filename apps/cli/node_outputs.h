@@ -36,9 +36,6 @@ Image picture_of_nodes(const Grid& grid, const TriangleMesh& coat, const std::ar
 /// The same of grid_image.
 Image picture_of_nodes(const Grid& grid, Image image, const std::array<int, 2>& tiles, int size);
 
-/// The values at the nodes of a sheet as 16-bit grey. Errors of write_file.
-void save_height_map(const Grid& sheet, const std::vector<double>& values, const std::string& path);
-
 /// Writes what the coat has at its vertices, which are the nodes of the shape; of tetrahedra, as .vti and .raw, an even
 /// block around them. Says what a program must know to read the file; empty where the file says it. Errors of
 /// write_grid and write_tets.
