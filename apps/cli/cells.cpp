@@ -64,14 +64,11 @@ void report(const CellsCommand& command, const Cells& cells, const PolygonMesh& 
               brief(smallest / mean).c_str(), brief(largest / mean).c_str());
   std::printf("sides     six at %s %% of the cells\n",
               brief(100 * static_cast<double>(six) / static_cast<double>(sides.size())).c_str());
-  for (const std::string& path : files) std::printf("wrote     %s\n", path.c_str());
+  publish_and_tell(files);
 }
 
 void run_cells(const CellsCommand& command) {
-  for (const std::string& path : command.outputs) {
-    check_mesh_path(path);
-    refuse_input_as_output(path, command.shape);
-  }
+  for (const std::string& path : command.outputs) check_mesh_path(path);
   if (!command.picture.empty()) check_picture_path(command.picture);
   const ThreadLimit threads(command.threads);
   ShapeFile file = read_for_cells(command.shape, {});

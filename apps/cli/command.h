@@ -15,6 +15,8 @@ using Json = nlohmann::ordered_json;
 struct Command {
   CLI::App* app;
   std::function<void()> run;  ///< throws Error
+  /// Where the command stands for another one: its words, which take its place.
+  std::function<std::vector<std::string>()> stands_for = {};
 };
 
 Command add_grow(CLI::App& parent);
@@ -31,6 +33,7 @@ Command add_grid(CLI::App& parent);
 Command add_cells(CLI::App& parent);
 Command add_measure(CLI::App& parent);
 Command add_recipes(CLI::App& parent);
+Command add_resume(CLI::App& parent);
 Command add_sheet(CLI::App& parent);
 Command add_render(CLI::App& parent);
 Command add_unwrap(CLI::App& parent);

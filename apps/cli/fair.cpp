@@ -122,14 +122,11 @@ void finish(const FairCommand& command, const ShapeFile& file, const Result& res
   }
   if (command.quiet) return;
   print_report(command, result.report);
-  for (const std::string& path : command.outputs) std::printf("wrote     %s\n", path.c_str());
+  publish_and_tell(command.outputs);
 }
 
 void run_fair(const FairCommand& command) {
-  for (const std::string& path : command.outputs) {
-    check_mesh_path(path);
-    refuse_input_as_output(path, command.shape);
-  }
+  for (const std::string& path : command.outputs) check_mesh_path(path);
   catch_interrupts();
   ProgressBar bar(command.quiet || command.json ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
   const ShapeFile file = read_surface(command.shape, command.input_unit);

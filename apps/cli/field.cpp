@@ -137,14 +137,11 @@ void report(const FieldCommand& o, const ShapeFile& file, const std::vector<std:
   std::printf("field     %d direction%s at each of %zu vertices\n", o.n, o.n == 1 ? "" : "s", mesh.points.size());
   std::printf("singular  %d triangles of positive index, %d of negative; sum of the indices %s\n", c.positive,
               c.negative, number(static_cast<double>(c.sum) / o.n).c_str());
-  for (const std::string& path : files) std::printf("wrote     %s\n", path.c_str());
+  publish_and_tell(files);
 }
 
 void run_field(const FieldCommand& o) {
-  for (const std::string& path : o.outputs) {
-    check_mesh_path(path);
-    refuse_input_as_output(path, o.shape);
-  }
+  for (const std::string& path : o.outputs) check_mesh_path(path);
   if (!o.picture.empty()) {
     check_picture_path(o.picture);
     check_picture_size(o.size, o.size, o.picture);

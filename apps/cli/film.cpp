@@ -10,6 +10,7 @@
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
 #include "io/gltf_animation.h"
+#include "io/output_set.h"
 #include "io/write_mesh.h"
 #include "io/xml_text.h"
 #include "look/dress.h"
@@ -36,9 +37,10 @@ std::string numbered(const std::string& path, int frame) {
 /// A run by itself, for the states at any times; linear between steps.
 class States {
  public:
-  States(std::shared_ptr<const Program> program, const GrowOptions& options, const Progress& progress)
+  States(std::shared_ptr<const Program> program, const GrowOptions& options, const Progress& progress,
+         GrowReport& report)
       : run_(program, World(program, progress), progress) {
-    restore(run_, options.resume);
+    restore(run_, options.resume, report);
     while (!run_.done() && run_.stage() + 1 < program->stages.size()) run_.advance(1);
     time_ = run_.summary().time;
   }
@@ -196,7 +198,10 @@ Film::Film(const GrowOptions& options, const Plan& planned) : options_(options),
     throw Error(Fault::usage,
                 "--frames makes sequences of -o and --picture; leave --bake, --maps, --panels, --plot, --height-map, "
                 "--patch-images, --keep-shape, --compress, --lines, --perforate and --thicken out");
-  if (is_video(options.picture)) require_ffmpeg(options.picture);
+  if (is_video(options.picture)) {
+    require_ffmpeg(options.picture);
+    expect_output(options.picture);
+  }
   if (options.from_frame == 1) return;
   if (std::ranges::any_of(options.outputs, is_single_file) || is_video(options.picture))
     throw Error(Fault::usage, "--from-frame is for frames in files of their own; a video or GLB is made as a whole");
@@ -223,7 +228,7 @@ std::vector<double> Film::times(double begin) const {
 
 void Film::shoot(std::shared_ptr<const Program> program, const FilmForm& form, const Progress& progress,
                  GrowReport& report) const {
-  States states(std::move(program), options_, progress);
+  States states(std::move(program), options_, progress, report);
   FrameWriter writer(options_, form, period_.has_value(), report);
   std::optional<Reduction> reduction;
   if (last_) reduction.emplace(*last_, static_cast<std::size_t>(*options_.triangles));
@@ -240,6 +245,7 @@ void Film::shoot(std::shared_ptr<const Program> program, const FilmForm& form, c
       const CoatFields fields = states.at(time);
       const TriangleMesh coat = dress(tessellate(fields, tessellation_request(form.look, palette_->paint)), *palette_);
       writer.add(number, time, reduction ? reduction->of(coat) : coat, own);
+      publish_outputs();
     };
     interruptible(
         "at frame " + std::to_string(number) + all + "; with --from-frame " + std::to_string(number) + " it goes on",

@@ -17,6 +17,7 @@
 #include "input_unit.h"
 #include "interrupt.h"
 #include "io/atomic_file.h"
+#include "io/output_set.h"
 #include "look/caption.h"
 #include "pelage/io.h"
 #include "progress_bar.h"
@@ -29,7 +30,7 @@ namespace pelage {
 
 namespace {
 
-constexpr int smallest_picture = 64, largest_picture = 4096;
+constexpr int narrowest_picture = 64, widest_picture = 4096;
 
 struct GalleryOptions {
   std::string folder;
@@ -77,6 +78,7 @@ void do_job(const Job& job, const GalleryOptions& options, const std::function<b
     job.picture->uniform = tile.uniform;
     write_png(with_caption(tile.image, short_name(*job.subject) + ", " + job.shape->name, job.subject->title),
               (std::filesystem::path(options.folder) / job.picture->file).string());
+    publish_outputs();
     job.picture->made = true;
     report(1);
   } catch (const Error& error) {
@@ -165,7 +167,7 @@ void make_folder(const std::string& folder) {
   std::error_code reason;
   std::filesystem::create_directories(folder, reason);
   if (reason) throw Error(Fault::output, "the folder cannot be made: " + reason.message(), {folder});
-  check_folder((std::filesystem::path(folder) / "index.html").string());
+  expect_output((std::filesystem::path(folder) / "index.html").string());
 }
 
 /// "2 of 12 pictures failed: ..." for the first of them.
@@ -212,6 +214,7 @@ void gallery(const GalleryOptions& options) {
   const std::string index = (std::filesystem::path(options.folder) / "index.html").string();
   const auto write_index = [&] {
     write_file(index, gallery_page(options.recipes ? "Recipes" : "Models", entries, options.picture_size));
+    publish_outputs();
   };
   if (!make_pictures(jobs, options, bar.progress())) interrupted(jobs, index, write_index);
   write_index();
@@ -243,7 +246,7 @@ void add_options(CLI::App& app, GalleryOptions& o) {
   add_input_unit_option(app, o.input_unit);
   app.add_option("--picture-size", o.picture_size, "Width of the pictures, pixels (default: 512)")
       ->type_name("N")
-      ->check(whole_number(smallest_picture, largest_picture));
+      ->check(whole_number(narrowest_picture, widest_picture));
   add_view_options(app, o.view);
   app.add_option("--threads", o.threads, "Threads to use (default: all cores); the result does not depend on it")
       ->type_name("N")

@@ -79,7 +79,7 @@ void draw_regions(const GridCommand& command) {
     grids.push_back({name, generate(region, options).grid});
   }
   write_png(grid_lines_sheet(grids, columns, command.size / columns), command.picture);
-  if (!command.quiet && !command.json) std::printf("wrote     %s\n", command.picture.c_str());
+  if (!command.quiet && !command.json) publish_and_tell({command.picture});
 }
 
 void print_grid(const GridCommand& command, const GeneratedGrid& g) {
@@ -100,8 +100,8 @@ void print_grid(const GridCommand& command, const GeneratedGrid& g) {
       {"functional", brief(g.functional)}};
   std::puts("quality");
   std::fputs(table(rows, 2).c_str(), stdout);
-  for (const std::string& path : command.outputs) std::printf("wrote     %s\n", path.c_str());
-  if (!command.picture.empty()) std::printf("wrote     %s\n", command.picture.c_str());
+  publish_and_tell(command.outputs);
+  if (!command.picture.empty()) publish_and_tell({command.picture});
 }
 
 Json to_json(const GridCommand& command, const GeneratedGrid& g) {
@@ -142,8 +142,7 @@ void make_grid(const GridCommand& command) {
   const Region region = load_region(command.region);
   GenerateOptions options;
   if (!command.nodes.empty()) options.nodes = parse_nodes(command.nodes);
-  for (const std::string& path : command.outputs)
-    if (!takes_grids(path)) check_mesh_path(path);
+  for (const std::string& path : command.outputs) takes_grids(path) ? expect_output(path) : check_mesh_path(path);
   if (!command.picture.empty()) check_picture_path(command.picture);
   const ThreadLimit threads(command.threads);
   const GeneratedGrid made = generate(region, options);

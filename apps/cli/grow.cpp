@@ -118,8 +118,8 @@ ShapeFile read_input(const GrowOptions& options, const std::string& shape, const
   return file;
 }
 
-void grow_run(const GrowOptions& options, Run& run, const CoatRequest& request, const Progress& progress,
-              GrowReport& report) {
+void grow_run(const GrowOptions& options, Run& run, const CoatRequest& request, CheckpointFile& saved,
+              const Progress& progress, GrowReport& report) {
   check_coat(request);
   set_out(run, options, progress, report);
   const Stopwatch growth;
@@ -130,7 +130,7 @@ void grow_run(const GrowOptions& options, Run& run, const CoatRequest& request, 
     plot.add(run);
     plotting = [&plot](const Run& now) { plot.add(now); };
   }
-  grow_to_the_end(run, options, plotting, progress, report);
+  grow_to_the_end(run, options, plotting, saved, progress, report);
   report.growth(run, growth.seconds());
   if (run.world().surface()) report.surface(*run.world().surface());
   if (!options.checkpoint.empty()) report.file(options.checkpoint);
@@ -189,7 +189,8 @@ void grow(const GrowOptions& options) {
     program = std::make_shared<const Program>(bind_plan(planned, file, std::move(images)));
     return std::make_unique<Run>(program, World(program, progress), progress);
   });
-  grow_run(options, *run, request, progress, report);
+  CheckpointFile saved(options.checkpoint, options.every_minutes);
+  grow_run(options, *run, request, saved, progress, report);
   SaveOptions form{object_name(file, recipe.shape), up};
   form.compress = options.compress;
   if (film) {
@@ -205,6 +206,7 @@ void grow(const GrowOptions& options) {
   }
   if (options.profile) report.profile(profile);
   report.end(total.seconds());
+  saved.finish();
 }
 
 }  // namespace

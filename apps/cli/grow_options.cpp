@@ -173,8 +173,15 @@ void add_time_options(CLI::App& app, GrowOptions& o) {
       ->type_name("N")
       ->check(whole_number(1, most_threads))
       ->group(group);
-  app.add_option("--checkpoint", o.checkpoint, "Write the state here at the end of the growth, and on Ctrl-C")
+  app.add_option("--checkpoint", o.checkpoint,
+                 "Keep the state here: now and then, at the end of stages and of the growth, and on Ctrl-C; "
+                 "pelage resume FILE goes on (default: beside the first output where the growth takes longer than the "
+                 "time between two)")
       ->type_name("FILE")
+      ->group(group);
+  app.add_option("--every-minutes", o.every_minutes, "Time between two checkpoints (default: 5)")
+      ->type_name("X")
+      ->check(positive_number())
       ->group(group);
   app.add_option("--resume", o.resume, "Go on from such a state; shape and options must be the same")
       ->type_name("FILE")
@@ -620,10 +627,9 @@ void check_outputs(const GrowOptions& options, const std::string& shape) {
                     : "--triangles is for surfaces; the nodes of this shape stay where they are");
   for (const std::string& output : options.outputs) {
     if (is_node_output(output))
-      check_folder(output);
+      expect_output(output);
     else
       check_mesh_path(output);
-    refuse_input_as_output(output, shape);
   }
   if (!options.picture.empty()) {
     if (is_video(options.picture) && !options.frames)
@@ -645,10 +651,13 @@ void check_outputs(const GrowOptions& options, const std::string& shape) {
     const auto [width, height] = size_of_panels(options.picture_size);
     check_picture_size(width, height, options.panels);
   }
-  for (const std::string& path : options.lines.files) refuse_input_as_output(path, shape);
-  if (options.checkpoint.empty()) return;
-  check_folder(options.checkpoint);
-  refuse_input_as_output(options.checkpoint, shape);
+  if (!options.checkpoint.empty()) expect_output(options.checkpoint);
+  if (options.resume.empty()) return;
+  std::vector<std::string> files = options.outputs;
+  files.insert(files.end(), {options.picture, options.panels, options.plot, options.height_map});
+  for (const std::string& file : files)
+    if (!file.empty() && true_path(file) == true_path(options.resume))
+      throw Error(Fault::usage, "the output " + file + " is the checkpoint itself; give it another name");
 }
 
 }  // namespace pelage

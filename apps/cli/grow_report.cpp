@@ -7,6 +7,7 @@
 
 #include "base/box.h"
 #include "base/length_unit.h"
+#include "io/output_set.h"
 #include "shape/builtin_grids.h"
 #include "shape/generators.h"
 #include "shape/grid.h"
@@ -209,6 +210,11 @@ void GrowReport::estimate(const Run& run, double seconds) {
   json_["estimated_growth_seconds"] = seconds;
 }
 
+void GrowReport::saving(const std::string& path, double minutes) {
+  line("saving", "the state every " + number(minutes) + " minutes; should the run be cut off: pelage resume " + path);
+  json_["checkpoint"] = path;
+}
+
 void GrowReport::growth(const Run& run, double seconds) {
   for (std::size_t k = 0; k < run.finished().size(); ++k) grown(run, k, run.finished()[k].summary);
   grown(run, run.stage(), run.summary());
@@ -240,7 +246,9 @@ void GrowReport::solid(const std::string& about) {
   json_["solid"] = about;
 }
 
-void GrowReport::file(const std::string& path, const std::string& about) {
+void GrowReport::file(const std::string& path, const std::string& about) { files_.emplace_back(path, about); }
+
+void GrowReport::tell(const std::string& path, const std::string& about) {
   std::error_code ignored;
   const auto bytes = std::filesystem::file_size(path, ignored);
   line("wrote", path + " (" + file_size(bytes) + ")" + (about.empty() ? "" : ": " + about));
@@ -267,6 +275,8 @@ void GrowReport::profile(Profile& profile) {
 }
 
 void GrowReport::end(double seconds) {
+  publish_outputs();
+  for (const auto& [path, about] : files_) tell(path, about);
   line("done", "in " + duration(seconds));
   json_["seconds"] = seconds;
   bar_.clear();

@@ -28,16 +28,20 @@ class GrowReport {
   void coarseness(const Run& run);
   /// `seconds`: of the whole growth.
   void estimate(const Run& run, double seconds);
+  /// That the state is kept on the way.
+  void saving(const std::string& path, double minutes);
   void surface(const MovingSurface& surface);
   void growth(const Run& run, double seconds);
   /// What a coat is as a solid.
   void solid(const std::string& about);
-  /// `about`: what one must know to read it, or empty.
+  /// Told at the end, when all appear. `about`: what one must know to read it, or empty.
   void file(const std::string& path, const std::string& about = {});
   void profile(Profile& profile);
+  /// All files of the command are given their names.
   void end(double seconds);
 
  private:
+  void tell(const std::string& path, const std::string& about);
   void grown(const Run& run, std::size_t stage, const RunSummary& summary);
   /// What the unknowns live on, for the finest pattern.
   void nodes(const Run& run, double finest, const std::string& per);
@@ -48,6 +52,7 @@ class GrowReport {
   Json json_ = Json::object();
   std::size_t warnings_of_run_ = 0;
   double bytes_ = 0;  ///< that the growth moved
+  std::vector<std::pair<std::string, std::string>> files_;
 };
 
 }  // namespace pelage

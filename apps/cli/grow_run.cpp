@@ -58,7 +58,7 @@ void begin_nested(Run& run, const Progress& progress, GrowReport& report) {
   const std::string place = "interrupted at " + stage + std::to_string(run.summary().steps) + " steps, time " +
                             number(run.summary().time) + "; no mesh or picture was written";
   if (checkpoint.empty()) throw Error(Fault::cancelled, place + "; with --checkpoint FILE it could go on from here");
-  throw Error(Fault::cancelled, place + "; go on with --resume " + checkpoint);
+  throw Error(Fault::cancelled, place + "; go on with: pelage resume " + checkpoint);
 }
 
 /// So many steps that they take about one slice, growing slowly since the steps of a settling pattern differ.
@@ -76,11 +76,19 @@ void advance(Run& run, std::int64_t steps) {
   }
 }
 
+/// Where a growth takes long and nobody thought of that.
+void keep_beside(const GrowOptions& options, CheckpointFile& saved, GrowReport& report) {
+  const std::string output = options.outputs.empty() ? options.picture : options.outputs.front();
+  if (output.empty()) return;
+  saved.keep_at(output + ".checkpoint");
+  report.saving(saved.path(), options.every_minutes);
+}
+
 }  // namespace
 
-void restore(Run& run, const std::string& path) {
+void restore(Run& run, const std::string& path, GrowReport& report) {
   if (path.empty()) return;
-  const std::string bytes = read_file(path);
+  const std::string bytes = read_checkpoint(path, [&](const std::string& text) { report.warning(text); });
   try {
     run.restore(bytes);
   } catch (const Error& error) {
@@ -90,13 +98,13 @@ void restore(Run& run, const std::string& path) {
 
 void set_out(Run& run, const GrowOptions& options, const Progress& progress, GrowReport& report) {
   if (options.nested) begin_nested(run, progress, report);
-  restore(run, options.resume);
+  restore(run, options.resume, report);
   report.warnings(run);
   report.pattern(run);
 }
 
-void grow_to_the_end(Run& run, const GrowOptions& options, const Observer& each_step, const Progress& progress,
-                     GrowReport& report) {
+void grow_to_the_end(Run& run, const GrowOptions& options, const Observer& each_step, CheckpointFile& saved,
+                     const Progress& progress, GrowReport& report) {
   std::int64_t steps = 1;
   GrowthClock clock;
   while (!run.done() && progress("growing", run.fraction())) {
@@ -107,11 +115,15 @@ void grow_to_the_end(Run& run, const GrowOptions& options, const Observer& each_
     else
       steps = next_steps(steps, watch.seconds());
     report.warnings(run);
-    if (const auto seconds = clock.estimate(run)) report.estimate(run, *seconds);
+    if (const auto seconds = clock.estimate(run)) {
+      report.estimate(run, *seconds);
+      if (saved.path().empty() && *seconds > 60 * options.every_minutes) keep_beside(options, saved, report);
+    }
+    saved.look_at(run);
   }
   if (run.summary().status == RunStatus::failed) throw Error(Fault::numerics, run.summary().message);
-  if (!options.checkpoint.empty()) write_file(options.checkpoint, run.checkpoint());
-  if (interrupt_signal()) interrupted(run, options.checkpoint);
+  saved.save(run);
+  if (interrupt_signal()) interrupted(run, saved.path());
 }
 
 }  // namespace pelage

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "checkpoint_file.h"
 #include "grow_options.h"
 #include "grow_report.h"
 #include "interrupt.h"
@@ -37,15 +38,15 @@ auto interruptible(const std::string& when, Work&& work) {
 /// Is told of a run.
 using Observer = std::function<void(const Run&)>;
 
-/// To the state of that file, unless the name is empty. Errors of Run::restore, with the file.
-void restore(Run& run, const std::string& path);
+/// To the state of that file, unless the name is empty. Errors of Run::restore and read_checkpoint, with the file.
+void restore(Run& run, const std::string& path, GrowReport& report);
 
 /// From the state of options.resume, where one is given, and with --nested from coarser grids.
 void set_out(Run& run, const GrowOptions& options, const Progress& progress, GrowReport& report);
 
-/// `each_step` is told of every step, or is empty. Writes the checkpoint. Error(Fault::numerics) when the run fails,
-/// Error(Fault::cancelled) after Ctrl-C.
-void grow_to_the_end(Run& run, const GrowOptions& options, const Observer& each_step, const Progress& progress,
-                     GrowReport& report);
+/// `each_step` is told of every step, or is empty. Writes checkpoints on the way and at the end. Error(Fault::numerics)
+/// when the run fails, Error(Fault::cancelled) after Ctrl-C.
+void grow_to_the_end(Run& run, const GrowOptions& options, const Observer& each_step, CheckpointFile& saved,
+                     const Progress& progress, GrowReport& report);
 
 }  // namespace pelage

@@ -95,7 +95,7 @@ void check_lines(const LineOptions& options, const std::vector<std::string>& spe
   for (const std::string& path : options.files) {
     if (std::ranges::count(line_extensions(), lower_extension(path)) == 0)
       throw Error(Fault::usage, "--lines " + path + ": lines are written as " + join_names(line_extensions()));
-    check_folder(path);
+    expect_output(path);
   }
   isolines_of(options, species);
 }

@@ -10,6 +10,7 @@
 #include "catalog/models.h"
 #include "command.h"
 #include "interrupt.h"
+#include "io/output_set.h"
 #include "io/png_writer.h"
 #include "look/contact_sheet.h"
 #include "look/dress.h"
@@ -158,6 +159,7 @@ std::string place_of(const MapCell& cell, const MapRequest& request) {
 }
 
 void report(const MapOptions& options, const MapRequest& request, const ParameterMap& map) {
+  publish_outputs();
   if (options.json) {
     Json cells = Json::array();
     for (const MapCell& cell : map.cells) cells.push_back(cell_json(cell, request));

@@ -10,6 +10,7 @@
 #include "catalog/skeleton.h"
 #include "command.h"
 #include "io/atomic_file.h"
+#include "outputs.h"
 #include "react/stability.h"
 #include "react/wavelength.h"
 #include "table.h"
@@ -245,7 +246,7 @@ void begin_model(std::string name) {
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored)) throw Error(Fault::output, "exists already; give another name", {path});
   write_file(path, text);
-  std::printf("wrote     %s\n", path.c_str());
+  publish_and_tell({path});
   std::printf("try       pelage analyse %s\n", path.c_str());
   std::printf("          pelage grow builtin:animal --model %s -o %s.glb --picture %s.png\n", path.c_str(),
               name.c_str(), name.c_str());

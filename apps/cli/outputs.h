@@ -2,13 +2,12 @@
 // Writing meshes, and saying what their formats cannot hold.
 
 #include <cstdio>
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "io/output_set.h"
 #include "io/write_mesh.h"
 #include "pelage/io.h"
-#include "shape/generators.h"
 #include "text.h"
 
 namespace pelage {
@@ -30,11 +29,10 @@ std::vector<std::string> save_all(const Mesh& mesh, const std::vector<std::strin
   return warnings;
 }
 
-/// Error(Fault::usage) where an output would replace the input.
-inline void refuse_input_as_output(const std::string& output, const std::string& shape) {
-  std::error_code ignored;
-  if (!is_builtin_shape(shape) && std::filesystem::equivalent(output, shape, ignored))
-    throw Error(Fault::usage, "the output " + output + " is the input itself; give it another name");
+/// All files of the command appear now, and are told of.
+inline void publish_and_tell(const std::vector<std::string>& paths) {
+  publish_outputs();
+  for (const std::string& path : paths) std::printf("wrote     %s\n", path.c_str());
 }
 
 /// A line for each.

@@ -10,6 +10,7 @@
 #include "catalog/scenes.h"
 #include "command.h"
 #include "interrupt.h"
+#include "io/output_set.h"
 #include "io/png_writer.h"
 #include "look/ramp.h"
 #include "progress_bar.h"
@@ -73,6 +74,7 @@ void run_render(const RenderCommand& o) {
   write_png(render(built.mesh, picture,
                    [&](std::string_view, double fraction) { return progress("drawing " + o.output, fraction); }),
             o.output);
+  publish_outputs();
   bar.clear();
   if (!o.quiet) std::printf("wrote     %s (%zu triangles)\n", o.output.c_str(), triangles);
 }

@@ -11,6 +11,7 @@
 #include "grow_options.h"
 #include "input_unit.h"
 #include "interrupt.h"
+#include "io/output_set.h"
 #include "io/png_writer.h"
 #include "look/contact_sheet.h"
 #include "pelage/render.h"
@@ -256,6 +257,7 @@ void sheet(const SheetOptions& options) {
   if (!make_tiles(tiles, options, size, bar.progress()))
     throw Error(Fault::cancelled, "interrupted; no sheet was written");
   write_png(draw(sheet_of(tiles, axes, both, size)), options.output);
+  publish_outputs();
   bar.clear();
   const std::size_t failed = warn_of_tiles(tiles);
   if (options.json) print_json(to_json(tiles, options.output));

@@ -290,7 +290,7 @@ void check_maps(const std::string& prefix) {
   if (name.empty())
     throw Error(Fault::usage,
                 "--maps " + prefix + ": expected how the names of the images begin, for example " + prefix + "coat");
-  check_folder(prefix + "-color.png");
+  expect_output(prefix + "-color.png");
 }
 
 std::vector<std::string> save_textured(PolygonMesh mesh, const std::string& path, SaveOptions form,

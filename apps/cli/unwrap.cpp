@@ -66,13 +66,9 @@ Json to_json(const UnwrapCommand& command, const UnwrapReport& r) {
 }
 
 void check_outputs(const UnwrapCommand& command) {
-  for (const std::string& path : command.outputs) {
-    check_mesh_path(path);
-    refuse_input_as_output(path, command.shape);
-  }
+  for (const std::string& path : command.outputs) check_mesh_path(path);
   if (command.picture.empty()) return;
   check_picture_path(command.picture);
-  refuse_input_as_output(command.picture, command.shape);
 }
 
 constexpr int picture_width = 1200;
@@ -99,7 +95,7 @@ void run_unwrap(const UnwrapCommand& command) {
   }
   if (command.quiet) return;
   print_report(result.report);
-  for (const std::string& path : command.files()) std::printf("wrote     %s\n", path.c_str());
+  publish_and_tell(command.files());
 }
 
 }  // namespace

@@ -115,10 +115,9 @@ CLI::Validator number_check(const std::string& wanted, bool (*fits)(double)) {
 
 }  // namespace
 
-const Command& parse_arguments(CLI::App& app, const std::vector<Command>& commands, int argc, char** argv) {
+const Command& parse_arguments(CLI::App& app, const std::vector<Command>& commands, std::vector<std::string> words) {
   app.allow_extras();
   for (const Command& command : commands) command.app->allow_extras();
-  std::vector<std::string> words(argv + 1, argv + argc);
   if (words.front() == "help") words = help_instead(words, commands);
   refuse_missing_values(words, commands);
   try {

@@ -9,7 +9,7 @@ namespace pelage {
 
 /// The command that the arguments ask for, its options filled in. Error(Fault::usage) for unknown commands and options,
 /// missing and unusable values; CLI::Success when help or the version is asked for.
-const Command& parse_arguments(CLI::App& app, const std::vector<Command>& commands, int argc, char** argv);
+const Command& parse_arguments(CLI::App& app, const std::vector<Command>& commands, std::vector<std::string> words);
 
 /// Of --threads.
 inline constexpr int most_threads = 1024;

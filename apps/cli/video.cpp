@@ -7,7 +7,6 @@
 #include <array>
 #include <csignal>
 #include <cstdlib>
-#include <filesystem>
 #include <sstream>
 #include <vector>
 
@@ -34,17 +33,31 @@ void require_ffmpeg(const std::string& path) {
                                  ".png for pictures with numbers");
 }
 
-Video::Video(std::string path) : path_(std::move(path)) {
-  const std::filesystem::path p(path_);
-  part_ = (p.parent_path() / ("." + p.stem().string() + "-unfinished" + p.extension().string())).string();
-}
+Video::Video(std::string path) : path_(std::move(path)), file_(path_) {}
 
 void Video::start(int width, int height) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
-  std::vector<std::string> words = {
-      "ffmpeg",   "-v",      "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24",
-      "-s",       size,      "-r",    "25", "-i", "-",        "-vf",      "pad=ceil(iw/2)*2:ceil(ih/2)*2",
-      "-pix_fmt", "yuv420p", part_};
+  std::vector<std::string> words = {"ffmpeg",
+                                    "-v",
+                                    "error",
+                                    "-y",
+                                    "-f",
+                                    "rawvideo",
+                                    "-pix_fmt",
+                                    "rgb24",
+                                    "-s",
+                                    size,
+                                    "-r",
+                                    "25",
+                                    "-i",
+                                    "-",
+                                    "-vf",
+                                    "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                                    "-pix_fmt",
+                                    "yuv420p",
+                                    "-f",
+                                    lower_extension(path_).substr(1),
+                                    file_.temporary_name()};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -83,15 +96,13 @@ void Video::close() {
   waitpid(process_, &status, 0);
   process_ = 0;
   if (status != 0) throw Error(Fault::output, path_ + ": ffmpeg failed; its own message is above");
-  std::filesystem::rename(part_, path_);
+  file_.commit();
 }
 
 Video::~Video() {
   if (process_ == 0) return;
   ::close(pipe_);
   waitpid(process_, nullptr, 0);
-  std::error_code ignored;
-  std::filesystem::remove(part_, ignored);
 }
 
 }  // namespace pelage

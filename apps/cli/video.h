@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "io/atomic_file.h"
 #include "pelage/image.h"
 
 namespace pelage {
@@ -30,7 +31,8 @@ class Video {
  private:
   void start(int width, int height);
 
-  std::string path_, part_;
+  std::string path_;
+  AtomicFile file_;
   int pipe_ = -1;
   int process_ = 0;
 };

@@ -1,41 +1,39 @@
 #pragma once
 // Files that appear whole or not at all.
 
-#include <cstdio>
 #include <string>
 #include <string_view>
 
+#include "io/temporary_file.h"
+
 namespace pelage {
 
-/// A file under construction. The bytes go to a temporary file in the same folder ("NAME.partial"), and
-/// commit() gives it its final name, replacing an older file in one step. Destruction without commit
-/// removes the temporary file, so that the final name never shows half a file. A symbolic link keeps
-/// pointing at the file that is replaced. All failures are Error(Fault::output) with the path and the reason.
+/// Whether a file appears when it is complete, or with the others of its command (io/output_set.h).
+enum class Appearance { with_the_others, at_once };
+
+/// A file under construction, under a temporary name (io/temporary_file.h) until commit(). Destruction without commit
+/// removes it, so that the final name never shows half a file. All failures are Error(Fault::output) with the path and
+/// the reason.
 class AtomicFile {
  public:
-  explicit AtomicFile(const std::string& path);
-  ~AtomicFile();
-  AtomicFile(const AtomicFile&) = delete;
-  AtomicFile& operator=(const AtomicFile&) = delete;
+  explicit AtomicFile(const std::string& path, Appearance appearance = Appearance::with_the_others);
 
-  void write(std::string_view bytes);
-  /// Brings everything to the disk, then renames. Nothing may be written afterwards.
+  void write(std::string_view bytes) { file_.write(bytes); }
+  /// For programs that write it themselves.
+  const std::string& temporary_name() const { return file_.name(); }
+  /// Brings everything to the disk, then renames or leaves that to the set. Nothing may be written afterwards.
   void commit();
 
  private:
-  [[noreturn]] void fail(int reason) const;
-
-  std::string path_;       // as the user gave it, for messages
-  std::string target_;     // the final name, symbolic links followed
-  std::string temporary_;  // "" once committed
-  std::FILE* file_ = nullptr;
+  Appearance appearance_;
+  TemporaryFile file_;
 };
 
 /// Writes a whole file.
-void write_file(const std::string& path, std::string_view bytes);
+void write_file(const std::string& path, std::string_view bytes, Appearance appearance = Appearance::with_the_others);
 
-/// Error(Fault::output) if the folder of `path` does not exist or cannot be written to: to be asked before
-/// the long work whose result goes there.
-void check_folder(const std::string& path);
+/// To be called before the long work whose result goes there: Error(Fault::output) if the folder of `path` does not
+/// exist or cannot be written to. Where a set is alive the path is kept for it (OutputSet::reserve), with its errors.
+void expect_output(const std::string& path);
 
 }  // namespace pelage

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/ascii.h"
+#include "base/read_files.h"
 #include "pelage/error.h"
 
 namespace pelage {
@@ -51,6 +52,11 @@ File open_file(const std::string& path) {
 void require_file(const std::string& path) { open_file(path); }
 
 std::string read_file(const std::string& path) {
+  note_reading(path);
+  return read_own_file(path);
+}
+
+std::string read_own_file(const std::string& path) {
   const File file = open_file(path);
   std::error_code code;
   // The size is a hint for the memory only: what is read counts, so that pipes work too.

@@ -192,7 +192,7 @@ void write_png(const Image& image, const std::string& path) { write_file(path, e
 void check_picture_path(const std::string& path) {
   if (lower_extension(path) != ".png")
     throw Error(Fault::usage, "pictures are written as PNG; end the name in .png", {path});
-  check_folder(path);
+  expect_output(path);
 }
 
 }  // namespace pelage

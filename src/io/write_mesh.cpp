@@ -242,7 +242,7 @@ std::vector<std::string> mesh_extensions() {
 
 void check_mesh_path(const std::string& path) {
   about(path, [&] { find_writer(lower(extension_of(path))); });
-  check_folder(path);
+  expect_output(path);
 }
 
 std::string mesh_bytes(const TriangleMesh& mesh, const std::string& extension, const SaveOptions& options) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/read_files.h"
 #include "base/suggest.h"
 
 namespace pelage {
@@ -206,6 +207,7 @@ Value parse_document(std::string_view text, const std::string& file) {
 }
 
 std::string read_text(const std::string& path) {
+  note_reading(path);
   std::error_code code;
   if (std::filesystem::is_directory(path, code))
     throw Error(Fault::input, "is a folder; give the path of a .toml file", {path});

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "linalg/sparse.h"
@@ -13,9 +14,25 @@
 
 namespace pelage {
 
-/// Of all that decides how the state of a program goes on: shape, images, equations, lengths, schemes, seeds. When a
-/// run stops (Stage::until, steps, stationary) is not part of it: a run may go on for longer than it was meant to.
-std::uint64_t fingerprint(const Program& program);
+/// Something that decides how the state of a program goes on, in words; a hash where words would not do.
+struct Trait {
+  std::string name, value;
+};
+using Traits = std::vector<Trait>;
+
+/// All of them: shape, images, equations, lengths, schemes, seeds, motion. When a run stops (Stage::until, steps,
+/// stationary) is not among them: a run may go on for longer than it was meant to.
+Traits traits_of(const Program& program);
+
+/// The first that differs, "seed 1 instead of 2"; empty where none does.
+std::string difference(const Traits& checkpoint, const Traits& run);
+
+inline constexpr std::size_t seal_length = 8;
+
+/// With a checksum of that many bytes behind them.
+std::string seal(std::string bytes);
+/// Whether there is one and it is right.
+bool is_sealed(std::string_view bytes);
 
 /// Appends to a string.
 class CheckpointWriter {
@@ -26,6 +43,17 @@ class CheckpointWriter {
   }
   void number(std::int64_t value) { number(static_cast<std::uint64_t>(value)); }
   void number(double value) { number(std::bit_cast<std::uint64_t>(value)); }
+  void text(std::string_view text) {
+    number(std::uint64_t{text.size()});
+    out_ += text;
+  }
+  void traits(const Traits& traits) {
+    number(std::uint64_t{traits.size()});
+    for (const Trait& t : traits) {
+      text(t.name);
+      text(t.value);
+    }
+  }
   void fields(const std::vector<Vector>& fields) {
     number(std::uint64_t{fields.size()});
     for (const Vector& f : fields) {
@@ -50,6 +78,20 @@ class CheckpointReader {
   }
   std::int64_t integer() { return static_cast<std::int64_t>(count()); }
   double number() { return std::bit_cast<double>(count()); }
+  std::string text() {
+    const std::uint64_t length = count();
+    if (length > in_.size() - at_) throw Error(Fault::input, "the checkpoint is damaged");
+    at_ += length;
+    return in_.substr(at_ - length, length);
+  }
+  Traits traits() {
+    Traits result(limited(count()));
+    for (Trait& t : result) {
+      t.name = text();
+      t.value = text();
+    }
+    return result;
+  }
   std::vector<Vector> fields() {
     std::vector<Vector> result(limited(count()));
     for (Vector& f : result) {
@@ -58,7 +100,8 @@ class CheckpointReader {
     }
     return result;
   }
-  bool at_end() const { return at_ == in_.size(); }
+  /// Before the checksum.
+  bool at_end() const { return at_ + seal_length == in_.size(); }
 
  private:
   std::size_t limited(std::uint64_t count) const {  // every element takes at least eight bytes

@@ -459,7 +459,8 @@ double measured_wavelength(const SparseMatrix& mass, const SparseMatrix& stiffne
 
 namespace {
 
-constexpr char magic[] = "pelage checkpoint 3\n";
+constexpr std::string_view magic = "pelage checkpoint 4\n";
+constexpr std::string_view kind = "pelage checkpoint ";
 constexpr const char* foreign =
     "the checkpoint belongs to another run: shape, recipe, size, seed and options must be the same";
 
@@ -482,13 +483,25 @@ bool has_sizes(const std::vector<Vector>& fields, std::size_t count, Eigen::Inde
   return fields.size() == count && std::ranges::all_of(fields, [&](const Vector& f) { return f.size() == size; });
 }
 
+/// Behind the beginning.
+CheckpointReader open_checkpoint(const std::string& bytes) {
+  if (!bytes.starts_with(magic))
+    throw Error(Fault::input, bytes.starts_with(kind) ? "this is a checkpoint of another version of the program"
+                                                      : "this is no checkpoint");
+  if (!is_sealed(bytes)) throw Error(Fault::input, "the checkpoint is damaged or cut short");
+  return CheckpointReader(bytes, magic.size());
+}
+
 }  // namespace
 
-std::string Run::checkpoint() const {
+std::string note_of_checkpoint(const std::string& bytes) { return open_checkpoint(bytes).text(); }
+
+std::string Run::checkpoint(std::string_view note) const {
   const State& state = now_->state;
-  std::string out = magic;
+  std::string out(magic);
   CheckpointWriter w(out);
-  w.number(fingerprint(*program_));
+  w.text(note);
+  w.traits(traits_of(*program_));
   w.number(state.time);
   w.number(state.step);
   w.number(now_->step);
@@ -507,14 +520,14 @@ std::string Run::checkpoint() const {
     w.fields(state.past[k]);
   }
   w.fields(state.past_rates);
-  if (!world_.surface()) return out;
+  if (!world_.surface()) return seal(std::move(out));
   const MovingSurface::State surface = world_.surface()->state();
   w.fields({flattened(now_->began_at)});
   w.number(surface.scale);
   w.number(std::int64_t{surface.fairing.steps});
   w.number(std::uint64_t{surface.fairing.done});
   w.fields({flattened(surface.fairing.points)});
-  return out;
+  return seal(std::move(out));
 }
 
 /// What a checkpoint holds.
@@ -529,10 +542,10 @@ struct Run::Snapshot {
 
 /// Error(Fault::input) when the bytes end early, go on for too long, or belong to another program.
 Run::Snapshot Run::read_snapshot(const std::string& bytes) const {
-  if (bytes.compare(0, sizeof magic - 1, magic) != 0)
-    throw Error(Fault::input, "this is not a checkpoint of this version");
-  CheckpointReader r(bytes, sizeof magic - 1);
-  if (r.count() != fingerprint(*program_)) throw Error(Fault::input, foreign);
+  CheckpointReader r = open_checkpoint(bytes);
+  r.text();  // the note
+  if (const std::string other = difference(r.traits(), traits_of(*program_)); !other.empty())
+    throw Error(Fault::input, "the checkpoint belongs to another run: it has " + other);
   Snapshot s;
   s.state.time = r.number();
   s.state.step = r.integer();

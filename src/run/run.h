@@ -66,7 +66,8 @@ class Run {
 
   /// Everything that changes, as bytes: a run of the same program that restores it continues with the same bits, on any
   /// machine that rounds the same.
-  std::string checkpoint() const;
+  /// `note`: what a program wants to find in it again.
+  std::string checkpoint(std::string_view note = {}) const;
   /// Error(Fault::input) when the bytes are not a checkpoint of this program; the run is then as before.
   void restore(const std::string& bytes);
 
@@ -108,5 +109,8 @@ inline constexpr double uniform_contrast = 0.02;
 /// 2 pi sqrt(<u', M u'> / <u', K u'>) with u' the deviation from the mean: the wavelength of a single wave, and between
 /// the wavelength of the spots and that of their harmonics for sharp spots. World units.
 double measured_wavelength(const SparseMatrix& mass, const SparseMatrix& stiffness, const Vector& u);
+
+/// Error(Fault::input) where the bytes are no checkpoint, of another version, damaged or cut short.
+std::string note_of_checkpoint(const std::string& bytes);
 
 }  // namespace pelage

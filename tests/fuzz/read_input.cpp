@@ -29,6 +29,7 @@
 #include "react/stability.h"
 #include "react/wavelength.h"
 #include "recipe/document.h"
+#include "run/checkpoint.h"
 #include "shape/atlas.h"
 #include "shape/cells.h"
 #include "shape/describe.h"
@@ -275,13 +276,15 @@ Growth small_growth() {
 }
 
 /// A checkpoint that fits, with changes: of every three bytes two are a place in it and the third is what stands there
-/// then; one that is left over cuts the end off. So the inputs stay what they are when the format changes.
+/// then; one that is left over cuts the end off. So the inputs stay what they are when the format changes. The checksum
+/// is made right again, since it would hide what lies behind it.
 std::string damaged(std::string checkpoint, std::string_view changes) {
+  checkpoint.resize(checkpoint.size() - seal_length);
   const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(changes[i])); };
   std::size_t i = 0;
   for (; i + 2 < changes.size(); i += 3) checkpoint[(256 * byte(i) + byte(i + 1)) % checkpoint.size()] = changes[i + 2];
   if (i + 1 == changes.size()) checkpoint.resize(checkpoint.size() * byte(i) / 256);
-  return checkpoint;
+  return seal(std::move(checkpoint));
 }
 
 void read_checkpoint(std::string_view bytes) {

@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/random.h"
 #include "catalog/bind.h"
 #include "pelage/error.h"
+#include "run/checkpoint.h"
 #include "shape/generators.h"
 #include "support/steppers.h"
 
@@ -113,9 +115,9 @@ TEST(Run, DamagedCheckpointsAreRefused) {
   EXPECT_THROW(run.restore(good + "x"), Error);
   for (std::size_t length = 0; length < good.size(); length += 97)
     EXPECT_THROW(run.restore(good.substr(0, length)), Error);
-  std::string huge = good;  // a length that no memory holds
-  for (std::size_t i = 60; i < 68; ++i) huge[i] = '\x7f';
-  EXPECT_THROW(run.restore(huge), Error);
+  std::string huge = good.substr(0, good.size() - seal_length);  // a length that no memory holds, well sealed
+  for (std::size_t i = 30; i < 38; ++i) huge[i] = '\x7f';
+  EXPECT_THROW(run.restore(seal(huge)), Error);
   EXPECT_THROW(start(small_recipe(), "builtin:sphere?n=162").restore(good), Error);
   Recipe recipe = small_recipe();
   recipe.stages[0].stepper.value = "semi-implicit";
@@ -124,6 +126,55 @@ TEST(Run, DamagedCheckpointsAreRefused) {
   other.advance(2);
   EXPECT_THROW(run.restore(other.checkpoint()), Error);
   EXPECT_EQ(run.coefficients()[0], before[0]);
+}
+
+/// Any of them: fields would be others, and nobody would know.
+TEST(Run, EveryFlippedBitIsSeen) {
+  auto run = start(small_recipe());
+  run.advance(5);
+  const std::string good = run.checkpoint();
+  for (std::size_t k = 0; k < 2000; ++k) {
+    const auto bit = static_cast<std::size_t>(uniform(5, k) * 8 * static_cast<double>(good.size()));
+    std::string bad = good;
+    bad[bit / 8] = static_cast<char>(bad[bit / 8] ^ (1 << bit % 8));
+    EXPECT_THROW(run.restore(bad), Error) << bit;
+  }
+}
+
+TEST(Run, TheFirstDifferenceIsNamed) {
+  const Recipe base = small_recipe("schnakenberg");
+  Recipe seed = base, method = base, parameter = base, step = base;
+  seed.stages[0].seed = 2;
+  method.stages[0].method.value = "linear";
+  parameter.stages[0].parameters = {{"a", 0.11, {}}};
+  step.stages[0].step = 0.01;
+  const std::string checkpoint = start(base).checkpoint();
+  const auto message = [&](const Recipe& other, const std::string& shape) {
+    try {
+      start(other, shape).restore(checkpoint);
+      return std::string("no error");
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+  };
+  const std::string same = "builtin:sphere?n=362";
+  for (const auto& [recipe, words] :
+       std::vector<std::pair<Recipe, std::string>>{{seed, "seed 1 instead of 2"},
+                                                   {method, "instead of linear"},
+                                                   {parameter, "a 0.1 instead of 0.11"},
+                                                   {step, "step none instead of 0.01"},
+                                                   {small_recipe("brusselator"), "model schnakenberg instead of"}})
+    EXPECT_NE(message(recipe, same).find(words), std::string::npos) << message(recipe, same);
+  EXPECT_NE(message(base, "builtin:sphere?n=162").find("another shape"), std::string::npos);
+}
+
+TEST(Run, ANoteComesBack) {
+  auto run = start(small_recipe());
+  run.advance(2);
+  EXPECT_EQ(note_of_checkpoint(run.checkpoint("what for")), "what for");
+  auto other = start(small_recipe());
+  other.restore(run.checkpoint("what for"));
+  EXPECT_EQ(other.checkpoint(), run.checkpoint());
 }
 
 /// Of equal sizes, but another run.
@@ -150,9 +201,8 @@ TEST(Run, CheckpointsOfOtherProgramsAreRefused) {
 TEST(Run, CheckpointsAreLittleEndian) {
   auto run = start(small_recipe());
   run.advance(5);
-  const std::string bytes = run.checkpoint();
-  const std::size_t step = std::string("pelage checkpoint 3\n").size() + 16;  // behind fingerprint and time
-  EXPECT_EQ(bytes.substr(step, 8), std::string("\x05\0\0\0\0\0\0\0", 8));
+  const std::string bytes = run.checkpoint("note"), heading = "pelage checkpoint 4\n";
+  EXPECT_EQ(bytes.substr(0, heading.size() + 12), heading + std::string("\x04\0\0\0\0\0\0\0note", 12));
 }
 
 TEST(Run, SaysWhenNothingHasGrown) {
