@@ -7,11 +7,14 @@
 
 #include "base/suggest.h"
 #include "command.h"
+#include "discretise/cell_space.h"
 #include "input_unit.h"
 #include "io/png_writer.h"
 #include "look/plot.h"
 #include "look/ticks.h"
+#include "measure/node_pattern.h"
 #include "measure/pattern.h"
+#include "shape/cells.h"
 #include "text.h"
 
 namespace pelage {
@@ -24,6 +27,34 @@ struct MeasureOptions {
   bool json = false;
 };
 
+/// What a pattern lies on: a cloud has no triangles, a volume is more than they show.
+enum class Ground { surface, cloud, volume };
+
+Ground ground_of(const ShapeFile& file) {
+  const Grid* grid = as<Grid>(file.nodes);
+  if (as<TetMesh>(file.nodes) || (grid && grid->dimension() == 3)) return Ground::volume;
+  return file.mesh.triangles.empty() && !file.nodes ? Ground::cloud : Ground::surface;
+}
+
+PatternMeasures measured(const ShapeFile& file, const Attribute& field, const std::optional<double>& level) {
+  constexpr int in_space = 3, on_surface = 2;
+  switch (ground_of(file)) {
+    case Ground::volume: {
+      const Method& method = as<TetMesh>(file.nodes) ? tets_method : grid_method;
+      return measure_nodes(*method.make_node_space(*file.nodes), in_space, field.values, level);
+    }
+    case Ground::cloud: {
+      const Cells cells = cells_at_points(std::make_shared<const TriangleMesh>(file.mesh));
+      std::vector<double> values;
+      for (const std::int32_t point : cells.face) values.push_back(field.values[static_cast<std::size_t>(point)]);
+      return measure_nodes(CellSpace(cells), on_surface, values, level);
+    }
+    case Ground::surface:
+      break;
+  }
+  return measure_pattern(file.mesh, field.values, level);
+}
+
 /// What can be measured: a number at every vertex.
 std::vector<const Attribute*> fields_of(const TriangleMesh& mesh) {
   std::vector<const Attribute*> fields;
@@ -35,7 +66,8 @@ std::vector<const Attribute*> fields_of(const TriangleMesh& mesh) {
 const Attribute& chosen_field(const TriangleMesh& mesh, const MeasureOptions& options) {
   const std::vector<const Attribute*> fields = fields_of(mesh);
   if (fields.empty())
-    throw Error(Fault::input, "there is no number at the vertices to measure; a coat in .vtp or .ply has its species",
+    throw Error(Fault::input,
+                "there is no number at the vertices to measure; a coat in .vtp, .ply, .vtu or .vti has its species",
                 {options.shape});
   if (options.field.empty()) return *fields.front();
   std::vector<std::string> names;
@@ -59,6 +91,8 @@ Json to_json(const Spots& spots) {
           {"neighbours", neighbours}};
 }
 
+const char* size_name(Ground ground) { return ground == Ground::volume ? "volume" : "area"; }
+
 double wavelength_of(double wave_number) { return 2 * std::numbers::pi / wave_number; }
 
 Json to_json(const Spectrum& s) {
@@ -70,30 +104,37 @@ Json to_json(const Spectrum& s) {
       {"share", s.share}};
 }
 
-Json to_json(const PatternMeasures& m, const std::string& shape, const std::string& field) {
-  return {{"shape", shape},
-          {"field", field},
-          {"area", json_number(m.area)},
-          {"minimum", json_number(m.minimum)},
-          {"maximum", json_number(m.maximum)},
-          {"mean", json_number(m.mean)},
-          {"deviation", json_number(m.deviation)},
-          {"level", json_number(m.level)},
-          {"above", to_json(m.above)},
-          {"below", to_json(m.below)},
-          {"border", json_number(m.border)},
-          {"wavelength", json_number(m.wavelength)},
-          {"spacing", json_number(m.spacing)},
-          {"coherence", json_number(m.coherence)},
-          {"along", m.along},
-          {"defects", {{"plus", m.defects.plus}, {"minus", m.defects.minus}}},
-          {"spots", to_json(m.spots)},
-          {"spectrum", to_json(m.spectrum)}};
+/// Without what nodes alone do not tell.
+Json to_json(const PatternMeasures& m, const std::string& shape, const std::string& field, Ground ground) {
+  Json json = {{"shape", shape},
+               {"field", field},
+               {size_name(ground), json_number(m.area)},
+               {"minimum", json_number(m.minimum)},
+               {"maximum", json_number(m.maximum)},
+               {"mean", json_number(m.mean)},
+               {"deviation", json_number(m.deviation)},
+               {"level", json_number(m.level)},
+               {"above", to_json(m.above)},
+               {"below", to_json(m.below)},
+               {"border", json_number(m.border)},
+               {"wavelength", json_number(m.wavelength)},
+               {"spacing", json_number(m.spacing)},
+               {"coherence", json_number(m.coherence)},
+               {"along", m.along},
+               {"defects", {{"plus", m.defects.plus}, {"minus", m.defects.minus}}},
+               {"spots", to_json(m.spots)},
+               {"spectrum", to_json(m.spectrum)}};
+  if (ground == Ground::surface) return json;
+  for (const char* key : {"border", "coherence", "along", "defects"}) json.erase(key);
+  for (const char* phase : {"above", "below"}) json[phase].erase("width");
+  json["spots"].erase("neighbours");
+  return json;
 }
 
-void print(const char* name, const PatternPhase& phase) {
-  std::printf("%s%s of the area in %s, %s wide\n", name, (brief(100 * phase.share) + " %").c_str(),
-              counted(phase.parts, "part").c_str(), brief(phase.width).c_str());
+void print(const char* name, const PatternPhase& phase, Ground ground) {
+  const std::string wide = ground == Ground::surface ? ", " + brief(phase.width) + " wide" : "";
+  std::printf("%s%s %% of the %s in %s%s\n", name, brief(100 * phase.share).c_str(), size_name(ground),
+              counted(phase.parts, "part").c_str(), wide.c_str());
 }
 
 /// "92, 60 with 6 neighbours, 20 with 5": the commonest first.
@@ -107,15 +148,16 @@ void print(const Spots& spots) {
               brief(spots.nearest).c_str(), text.c_str());
 }
 
-void print(const PatternMeasures& m, const std::string& field, std::size_t others) {
+void print(const PatternMeasures& m, const std::string& field, std::size_t others, Ground ground) {
   const std::string more =
       others > 0 ? ", the first of " + counted(others + 1, "field") + "; --field names another" : "";
   std::printf("field     %s%s\n", field.c_str(), more.c_str());
   std::printf("values    %s to %s, mean %s, standard deviation %s\n", brief(m.minimum).c_str(),
               brief(m.maximum).c_str(), brief(m.mean).c_str(), brief(m.deviation).c_str());
-  std::printf("level     %s; the lines there are %s long\n", brief(m.level).c_str(), brief(m.border).c_str());
-  print("above     ", m.above);
-  print("below     ", m.below);
+  const std::string lines = ground == Ground::surface ? "; the lines there are " + brief(m.border) + " long" : "";
+  std::printf("level     %s%s\n", brief(m.level).c_str(), lines.c_str());
+  print("above     ", m.above, ground);
+  print("below     ", m.below, ground);
   if (!(m.wavelength > 0)) {
     std::puts("pattern   none: the field is the same everywhere");
     return;
@@ -125,6 +167,7 @@ void print(const PatternMeasures& m, const std::string& field, std::size_t other
               brief(wavelength_of(m.spectrum.peak())).c_str(), brief(wavelength_of(m.spectrum.quantile(0.75))).c_str(),
               brief(wavelength_of(m.spectrum.quantile(0.25))).c_str());
   print(m.spots);
+  if (ground != Ground::surface) return;
   std::printf("stripes   %s of 1 (0: spots), along x %s, y %s, z %s\n", brief(m.coherence).c_str(),
               brief(m.along[0]).c_str(), brief(m.along[1]).c_str(), brief(m.along[2]).c_str());
   std::printf("defects   %zu of +1/2, %zu of -1/2 in the directions of stripes\n", m.defects.plus, m.defects.minus);
@@ -156,19 +199,18 @@ Plot spectrum_plot(const Spectrum& s, const std::string& title, const std::strin
 }
 
 void run_measure(const MeasureOptions& options) {
-  const ShapeFile file = read_surface(options.shape);
-  if (as<TetMesh>(file.nodes))
-    throw Error(Fault::usage, "patterns are measured on surfaces, and the shape is a volume", {options.shape});
+  const ShapeFile file = read_shape(options.shape, {});
+  const Ground ground = ground_of(file);
   if (!options.plot.empty()) check_picture_path(options.plot);
   const Attribute& field = chosen_field(file.mesh, options);
-  const PatternMeasures measures = measure_pattern(file.mesh, field.values, options.level);
+  const PatternMeasures measures = measured(file, field, options.level);
   if (!options.plot.empty()) {
     if (measures.spectrum.empty())
       throw Error(Fault::input, "there is no spectrum to plot: the field is the same everywhere", {options.shape});
     write_png(draw(spectrum_plot(measures.spectrum, object_name(file, options.shape), field.name)), options.plot);
   }
-  if (options.json) return print_json(to_json(measures, options.shape, field.name));
-  print(measures, field.name, fields_of(file.mesh).size() - 1);
+  if (options.json) return print_json(to_json(measures, options.shape, field.name, ground));
+  print(measures, field.name, fields_of(file.mesh).size() - 1, ground);
 }
 
 }  // namespace
@@ -181,7 +223,8 @@ Command add_measure(CLI::App& parent) {
       "How many parts lie above and below a level, how much of the area they cover and how wide they are, the "
       "wavelength and the spectrum, spots with their neighbours, stripes with their directions and defects. Lengths "
       "are in units of the file.");
-  app->add_option("SHAPE", options->shape, "A coat with its species, as .vtp and .ply have them")
+  app->add_option("SHAPE", options->shape,
+                  "A coat with its species, as .vtp and .ply have them, also of clouds, and .vtu and .vti of volumes")
       ->required()
       ->type_name("");
   app->add_option("--field", options->field, "What to measure: a number at each vertex (default: the first)")

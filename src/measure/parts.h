@@ -1,9 +1,10 @@
 #pragma once
-// Connected parts of a surface where a function is above a level, or below it.
+// Connected parts of a shape where a function is above a level, or below it.
 
 #include <cstdint>
 #include <vector>
 
+#include "linalg/sparse.h"
 #include "pelage/triangle_mesh.h"
 
 namespace pelage {
@@ -16,5 +17,8 @@ struct PartNumbers {
 /// Of a function that is linear on the triangles: they are those of its vertices.
 PartNumbers connected_parts(const std::vector<Triangle>& triangles, const std::vector<double>& values, double level,
                             bool above);
+
+/// Of nodes of which those in a row of a symmetric pattern are neighbours.
+PartNumbers connected_nodes(const SparsePattern& joined, const std::vector<double>& values, double level, bool above);
 
 }  // namespace pelage

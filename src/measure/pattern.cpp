@@ -39,12 +39,6 @@ Split split(const Piece& piece, double level) {
   return {high == 1 ? corner : area - corner, line.norm()};
 }
 
-double middle_level(std::vector<double> values) {
-  constexpr double share = 0.005;
-  const double low = quantile(values, share), high = quantile(values, 1 - share);
-  return (low + high) / 2;
-}
-
 void add_statistics(const TriangleMesh& mesh, const std::vector<double>& values, PatternMeasures& m) {
   double integral = 0, square = 0;
   for (const Triangle& t : mesh.triangles) {
@@ -115,6 +109,12 @@ void add_defects(const std::vector<int>& half_turns, PatternMeasures& m) {
 }
 
 }  // namespace
+
+double middle_level(std::vector<double> values) {
+  constexpr double share = 0.005;
+  const double low = quantile(values, share), high = quantile(values, 1 - share);
+  return (low + high) / 2;
+}
 
 PatternMeasures measure_pattern(const TriangleMesh& mesh, const std::vector<double>& values,
                                 const std::optional<double>& level) {

@@ -27,8 +27,8 @@ struct StripeDefects {
 };
 
 struct PatternMeasures {
-  double area = 0;                                           ///< of the surface [world units^2]
-  double minimum = 0, maximum = 0, mean = 0, deviation = 0;  ///< weighted with the area
+  double area = 0;  ///< of the surface [world units^2], or the volume (measure_nodes) [world units^3]
+  double minimum = 0, maximum = 0, mean = 0, deviation = 0;  ///< the last two weighted with the area
   double level = 0;
   PatternPhase above, below;
   double border = 0;  ///< length of the lines at the level [world units]
@@ -49,8 +49,11 @@ struct PatternMeasures {
   Spectrum spectrum;  ///< empty for a constant
 };
 
-/// Of a function that is linear on the triangles, with one value per vertex. Default level: halfway between the lowest
-/// and the highest half percent of the values. Error(Fault::input) for meshes without area, or that are no manifold.
+/// Halfway between the lowest and the highest half percent of the values, of which there are some.
+double middle_level(std::vector<double> values);
+
+/// Of a function that is linear on the triangles, with one value per vertex. Default level: middle_level.
+/// Error(Fault::input) for meshes without area, or that are no manifold.
 PatternMeasures measure_pattern(const TriangleMesh& mesh, const std::vector<double>& values,
                                 const std::optional<double>& level = {});
 

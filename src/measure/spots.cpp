@@ -115,18 +115,19 @@ std::vector<std::int64_t> neighbours_of(const TriangleMesh& mesh, const std::vec
   return neighbours;
 }
 
-double mean_nearest(const TriangleMesh& mesh, const std::vector<Part>& parts) {
+}  // namespace
+
+double mean_nearest(std::span<const Point> places) {
+  if (places.size() < 2) return 0;
   double sum = 0;
-  for (const Part& p : parts) {
+  for (const Point& p : places) {
     double least = std::numeric_limits<double>::infinity();
-    for (const Part& q : parts)
-      if (&p != &q) least = std::min(least, length(difference(mesh.points[at(p.centre)], mesh.points[at(q.centre)])));
+    for (const Point& q : places)
+      if (&p != &q) least = std::min(least, length(difference(p, q)));
     sum += least;
   }
-  return sum / static_cast<double>(parts.size());
+  return sum / static_cast<double>(places.size());
 }
-
-}  // namespace
 
 Spots find_spots(const TriangleMesh& mesh, const std::vector<double>& values, double level, bool above) {
   const std::vector<Part> parts = parts_of(mesh, connected_parts(mesh.triangles, values, level, above));
@@ -135,7 +136,9 @@ Spots find_spots(const TriangleMesh& mesh, const std::vector<double>& values, do
   if (parts.empty()) return spots;
   for (const Part& p : parts)
     spots.diameter += 2 * std::sqrt(p.area / std::numbers::pi) / static_cast<double>(parts.size());
-  if (parts.size() > 1) spots.nearest = mean_nearest(mesh, parts);
+  std::vector<Point> centres;
+  for (const Part& p : parts) centres.push_back(mesh.points[at(p.centre)]);
+  spots.nearest = mean_nearest(centres);
   for (const std::int64_t n : neighbours_of(mesh, cells(mesh, parts), parts.size()))
     if (n >= 0) ++spots.neighbours[static_cast<std::size_t>(n)];
   return spots;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/parallel.h"
-#include "linalg/conjugate_gradient.h"
 #include "pelage/error.h"
 #include "shape/locate.h"
 #include "shape/tet_mesh.h"
@@ -13,8 +12,9 @@ namespace pelage {
 
 namespace {
 
-/// Far below what a step of fairing moves.
-constexpr double tolerance = 1e-8;
+/// Of the displacements inside, which need not be exact: those of the skin are. The rest is far below what would
+/// crush a tetrahedron.
+constexpr double tolerance = 1e-5;
 /// Of a tetrahedron, as a share of what it had: below that it counts as crushed.
 constexpr double least_volume = 0.1;
 constexpr int most_rounds = 100;
@@ -47,9 +47,8 @@ HarmonicVolume::HarmonicVolume(std::shared_ptr<const TetMesh> volume, std::share
                                SharedMatrix stiffness)
     : volume_(std::move(volume)),
       surface_(std::move(surface)),
-      stiffness_(std::move(stiffness)),
-      skin_(nodes_of_skin(*volume_)),
-      nearest_(nearest_places(volume_->points, skin_, *surface_)) {}
+      inside_(std::move(stiffness), nodes_of_skin(*volume_)),
+      nearest_(nearest_places(volume_->points, inside_.held(), *surface_)) {}
 
 std::vector<Point> HarmonicVolume::points(const std::vector<Point>& surface) const {
   Displacements displacement = displacements(surface);
@@ -69,19 +68,14 @@ HarmonicVolume::Displacements HarmonicVolume::displacements(const std::vector<Po
   const std::vector<Triangle>& triangles = surface_->triangles;
   Displacements all(volume_->nodes(), Eigen::Vector3d::Zero());
   for (std::size_t k = 0; k < all.size(); ++k)
-    if (skin_[k])
+    if (inside_.held()[k])
       for (std::size_t d = 0; d < 3; ++d)
         all[k][static_cast<Eigen::Index>(d)] =
             point_at(triangles, surface, nearest_[k])[d] - point_at(triangles, surface_->points, nearest_[k])[d];
-  const Jacobi<Vector> preconditioner(diagonal(*stiffness_));
-  ConjugateGradientWork<Vector> work;
-  const Vector nothing = Vector::Zero(static_cast<Eigen::Index>(all.size()));
   for (Eigen::Index d = 0; d < 3; ++d) {
-    Vector along = nothing;
+    Vector along(static_cast<Eigen::Index>(all.size()));
     for (Eigen::Index k = 0; k < along.size(); ++k) along[k] = all[static_cast<std::size_t>(k)][d];
-    const SolveReport solved =
-        conjugate_gradient(*stiffness_, preconditioner, nothing, along, &skin_, {tolerance}, work);
-    if (!solved.converged) throw Error(Fault::numerics, "the inside of the volume did not follow its surface");
+    inside_.complete(along, tolerance);
     for (Eigen::Index k = 0; k < along.size(); ++k) all[static_cast<std::size_t>(k)][d] = along[k];
   }
   return all;

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "linalg/sparse.h"
+#include "linalg/harmonic.h"
 #include "pelage/tet_mesh.h"
 #include "shape/mesh_place.h"
 
@@ -36,8 +36,7 @@ class HarmonicVolume {
 
   std::shared_ptr<const TetMesh> volume_;
   std::shared_ptr<const TriangleMesh> surface_;
-  SharedMatrix stiffness_;
-  std::vector<char> skin_;          ///< per node
+  HarmonicFunctions inside_;        ///< held at the nodes of the skin
   std::vector<MeshPlace> nearest_;  ///< per node of the skin
 };
 

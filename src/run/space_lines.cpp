@@ -6,7 +6,7 @@
 #include "base/box.h"
 #include "base/parallel.h"
 #include "discretise/anisotropy.h"
-#include "linalg/conjugate_gradient.h"
+#include "linalg/harmonic.h"
 #include "pelage/error.h"
 #include "shape/vectors.h"
 
@@ -22,12 +22,8 @@ void add(double weight, const Tensor& t, Tensor& sum) {
   for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight * t[k];
 }
 
-/// Without sources and fluxes, and with the values of `u` where they are held.
-void make_harmonic(const SparseMatrix& stiffness, const Held& held, Vector& u) {
-  ConjugateGradientWork<Vector> work;
-  conjugate_gradient(stiffness, Jacobi<Vector>(diagonal(stiffness)), Vector(Vector::Zero(u.size())), u, &held,
-                     {.tolerance = 1e-9, .max_iterations = 10000}, work);
-}
+/// Of harmonic functions: directions need no more.
+constexpr double tolerance = 1e-9;
 
 /// Where tensors are 0, the harmonic ones between the others, whose traces they have.
 void complete(const Space& space, std::vector<Tensor>& tensors) {
@@ -38,11 +34,11 @@ void complete(const Space& space, std::vector<Tensor>& tensors) {
     std::ranges::fill(tensors, line_tensor({1, 0, 0}));
     return;
   }
-  const SharedMatrix stiffness = space.stiffness();
+  const HarmonicFunctions harmonic(space.stiffness(), std::move(held));
   Vector u(space.unknowns());
   for (std::size_t k = 0; k < Tensor{}.size(); ++k) {
     for (Index i = 0; i < space.unknowns(); ++i) u[i] = tensors[at(i)][k];
-    make_harmonic(*stiffness, held, u);
+    harmonic.complete(u, tolerance);
     for (Index i = 0; i < space.unknowns(); ++i) tensors[at(i)][k] = u[i];
   }
 }
@@ -55,7 +51,7 @@ std::vector<Point> gradients_between(const Space& space, const std::vector<Point
   Held held(nodes.size());
   for (const Index v : from) u[v] = 0, held[at(v)] = 1;
   for (const Index v : to) u[v] = 1, held[at(v)] = 1;
-  make_harmonic(*space.stiffness(), held, u);
+  HarmonicFunctions(space.stiffness(), std::move(held)).complete(u, tolerance);
   std::vector<Point> gradient(nodes.size());
   Vector coordinate(space.unknowns());
   for (std::size_t d = 0; d < 3; ++d) {

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "pelage/error.h"
 #include "shape/cell_relaxation.h"
+#include "shape/cloud_points.h"
 #include "shape/mesh_place.h"
 
 namespace pelage {
@@ -94,6 +96,19 @@ Cells make_cells(std::shared_ptr<const TriangleMesh> on, std::size_t n) { return
 std::size_t cells_for_edge(const TriangleMesh& on, double edge) {
   const auto not_owned = [](const TriangleMesh*) {};  // it outlives this call
   return CellMaker(std::shared_ptr<const TriangleMesh>(&on, not_owned)).for_edge(edge);
+}
+
+Cells cells_at_points(std::shared_ptr<const TriangleMesh> cloud) {
+  constexpr double further = 1.5;
+  CloudPoints points = cloud_points(*cloud);
+  Cells cells;
+  cells.on = std::move(cloud);
+  const double area = std::accumulate(points.area.begin(), points.area.end(), 0.0);
+  cells.radius = further * 2 * std::sqrt(area / static_cast<double>(points.point.size()));
+  cells.points = std::move(points.point);
+  cells.normals = std::move(points.normal);
+  cells.face = std::move(points.number);
+  return cells;
 }
 
 TriangleMesh mesh_of(const Cells& cells) {

@@ -44,6 +44,10 @@ class CellMaker {
 Cells make_cells(std::shared_ptr<const TriangleMesh> on, std::size_t n);
 std::size_t cells_for_edge(const TriangleMesh& on, double edge);
 
+/// The points of a cloud that count (cloud_points.h) as cells themselves; their faces are their numbers. They reach
+/// half as far again as even ones, since points of a cloud are less even. Error(Fault::input) as for CellMaker.
+Cells cells_at_points(std::shared_ptr<const TriangleMesh> cloud);
+
 /// The cells as vertices without triangles, with the attributes that the shape has at their places, and "normal".
 TriangleMesh mesh_of(const Cells& cells);
 

@@ -65,7 +65,7 @@ CoveredParts::CoveredParts(std::shared_ptr<const TriangleMesh> mesh, Enclosures 
   small_ = std::sqrt(whole) / 128;
   for (std::int32_t f = 0; f < faces; ++f) {
     const std::size_t before = seen_.size();
-    const bool near_others = split({f, whole_triangle}, corners(f)).near_others;
+    const bool near_others = split({f, whole_triangle}, corners(f), around(f)).near_others;
     state_.push_back(near_others ? State::mixed : seen_.size() > before ? State::seen : State::covered);
   }
   keep_whole_parts();
@@ -85,45 +85,46 @@ std::array<Point, 3> CoveredParts::corners(const Piece& piece) const {
   return {on(t, piece.corner[0]), on(t, piece.corner[1]), on(t, piece.corner[2])};
 }
 
-/// Whether what lies a hair before a place, or behind it, is inside one of the parts with numbers below `end`.
-bool CoveredParts::inside_others(std::int32_t face, const Point& p, double way, std::int32_t end) const {
+/// Whether what lies a hair before a place, or behind it, is inside one of these parts with a number below `end`.
+bool CoveredParts::inside_one_of(Parts others, std::int32_t face, const Point& p, double way, std::int32_t end) const {
   const std::array<Point, 3> t = corners(face);
   const Point n = unit(cross(difference(t[1], t[0]), difference(t[2], t[0])));
   Point there = p;
   for (std::size_t k = 0; k < 3; ++k) there[k] += way * n[k];
-  return std::ranges::any_of(enclosures_.around(enclosures_.part()[at(face)]),
+  return std::ranges::any_of(others,
                              [&](std::int32_t other) { return other < end && enclosures_.inside(other, there); });
 }
 
-bool CoveredParts::looks_covered(std::int32_t face, const Point& p) const {
-  return inside_others(face, p, hair_, std::numeric_limits<std::int32_t>::max()) ||
-         inside_others(face, p, -hair_, enclosures_.part()[at(face)]);
+bool CoveredParts::looks_covered(Parts others, std::int32_t face, const Point& p) const {
+  return inside_one_of(others, face, p, hair_, std::numeric_limits<std::int32_t>::max()) ||
+         inside_one_of(others, face, p, -hair_, enclosures_.part()[at(face)]);
 }
 
 bool CoveredParts::covers(std::int32_t face, const Point& p) const {
   const State state = state_[at(face)];
-  return state == State::covered || (state == State::mixed && looks_covered(face, p));
+  return state == State::covered || (state == State::mixed && looks_covered(around(face), face, p));
 }
 
-bool CoveredParts::meets_others(std::int32_t part, const std::array<Point, 3>& corner) const {
+/// Adds what is seen of a piece, which is one again if that is all of it. Of the parts that may cover some of it, those
+/// whose surfaces do not pass by have all of it inside, or nothing: only the others are asked about its quarters.
+CoveredParts::Split CoveredParts::split(const Piece& piece, const std::array<Point, 3>& corner, Parts others) {
   const Point middle = middle_of(corner);
   double reach = 2 * hair_;
   for (const Point& p : corner) reach = std::max(reach, 2 * hair_ + length(difference(p, middle)));
-  return std::ranges::any_of(enclosures_.around(part),
-                             [&](std::int32_t other) { return enclosures_.passes(other, middle, reach); });
-}
-
-/// Adds what is seen of a piece, which is one again if that is all of it.
-CoveredParts::Split CoveredParts::split(const Piece& piece, const std::array<Point, 3>& corner) {
-  const bool near_others = meets_others(enclosures_.part()[at(piece.face)], corner);
-  if (!near_others || longest_edge(corner) <= small_) {
-    const bool covered = looks_covered(piece.face, middle_of(corner));
+  std::vector<std::int32_t> near;
+  for (const std::int32_t other : others)
+    if (enclosures_.passes(other, middle, reach))
+      near.push_back(other);
+    else if (enclosures_.inside(other, middle))
+      return {false, false};
+  if (near.empty() || longest_edge(corner) <= small_) {
+    const bool covered = looks_covered(near, piece.face, middle);
     if (!covered) seen_.push_back(piece);
-    return {near_others, !covered};
+    return {!near.empty(), !covered};
   }
   const std::size_t before = seen_.size();
   bool whole = true;
-  for (const Piece& quarter : quarters(piece)) whole &= split(quarter, corners(quarter)).whole;
+  for (const Piece& quarter : quarters(piece)) whole &= split(quarter, corners(quarter), near).whole;
   if (whole) {
     seen_.resize(before);
     seen_.push_back(piece);
@@ -137,7 +138,7 @@ void CoveredParts::keep_whole_parts() {
   for (const Piece& p : seen_) gone[at(enclosures_.part()[at(p.face)])] = 0;
   for (std::int32_t f = 0; f < std::ssize(state_); ++f)
     if (char& g = gone[at(enclosures_.part()[at(f)])])
-      g = inside_others(f, middle_of(corners(f)), hair_, std::numeric_limits<std::int32_t>::max());
+      g = inside_one_of(around(f), f, middle_of(corners(f)), hair_, std::numeric_limits<std::int32_t>::max());
   for (std::int32_t f = 0; f < std::ssize(state_); ++f) {
     if (!gone[at(enclosures_.part()[at(f)])]) continue;
     state_[at(f)] = State::seen;

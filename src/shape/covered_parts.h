@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "pelage/triangle_mesh.h"
@@ -41,10 +42,13 @@ class CoveredParts {
   CoveredParts(std::shared_ptr<const TriangleMesh> mesh, Enclosures enclosures);
   std::array<Point, 3> corners(std::int32_t face) const;
   std::array<Point, 3> corners(const Piece& piece) const;
-  bool inside_others(std::int32_t face, const Point& p, double way, std::int32_t end) const;
-  bool looks_covered(std::int32_t face, const Point& p) const;
-  bool meets_others(std::int32_t part, const std::array<Point, 3>& corner) const;
-  Split split(const Piece& piece, const std::array<Point, 3>& corner);
+  using Parts = std::span<const std::int32_t>;
+  Parts around(std::int32_t face) const {
+    return enclosures_.around(enclosures_.part()[static_cast<std::size_t>(face)]);
+  }
+  bool inside_one_of(Parts others, std::int32_t face, const Point& p, double way, std::int32_t end) const;
+  bool looks_covered(Parts others, std::int32_t face, const Point& p) const;
+  Split split(const Piece& piece, const std::array<Point, 3>& corner, Parts others);
   void keep_whole_parts();
 
   std::shared_ptr<const TriangleMesh> mesh_;

@@ -62,7 +62,7 @@ TEST(HarmonicVolume, TakesTheInsideAlongAsTheSurfaceIsTakenLinearly) {
   double error = 0;
   for (std::size_t k = 0; k < found.size(); ++k)
     for (std::size_t d = 0; d < 3; ++d) error = std::max(error, std::abs(found[k][d] - expected[k][d]));
-  EXPECT_LT(error, 1e-6);
+  EXPECT_LT(error, 1e-4);  // the solve ends at 1e-5 of residuals
 }
 
 struct Ball {

@@ -2,7 +2,11 @@
 // Polygons that do not fit together.
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <memory>
+#include <numbers>
+#include <vector>
 
 #include "pelage/triangle_mesh.h"
 
@@ -91,6 +95,49 @@ inline TriangleMesh two_spheres(double distance, const TriangleMesh& sphere) {
     for (const Triangle& t : sphere.triangles) both.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   }
   return both;
+}
+
+/// The closed surface that a curve of points (x, distance from the x axis) makes when it turns about this axis: from
+/// axis to axis, with vertices about `edge` apart on every ring.
+inline TriangleMesh turned_about_x(const std::vector<std::array<double, 2>>& curve, double edge) {
+  constexpr double turn = 2 * std::numbers::pi;
+  TriangleMesh mesh;
+  std::vector<std::int32_t> first, count;  // of the vertices of each ring
+  for (std::size_t ring = 0; ring < curve.size(); ++ring) {
+    const auto [x, radius] = curve[ring];
+    const bool pole = ring == 0 || ring + 1 == curve.size();
+    first.push_back(static_cast<std::int32_t>(mesh.points.size()));
+    count.push_back(pole ? 1 : std::max(3, static_cast<std::int32_t>(std::lround(turn * radius / edge))));
+    for (std::int32_t k = 0; k < count[ring]; ++k) {
+      const double angle = turn * k / count[ring];
+      mesh.points.push_back({x, pole ? 0 : radius * std::cos(angle), pole ? 0 : radius * std::sin(angle)});
+    }
+  }
+  for (std::size_t ring = 1; ring < curve.size(); ++ring) {
+    const std::int32_t m = count[ring - 1], n = count[ring];
+    const auto below = [&](std::int32_t k) { return first[ring - 1] + k % m; };
+    const auto above = [&](std::int32_t k) { return first[ring] + k % n; };
+    for (std::int32_t i = 0, j = 0; i < (m == 1 ? 0 : m) || j < (n == 1 ? 0 : n);) {
+      const bool next_below = m > 1 && (n == 1 || j == n || (i < m && (i + 1) * n < (j + 1) * m));
+      if (next_below)
+        mesh.triangles.push_back({below(i), above(j), below(i + 1)}), ++i;
+      else
+        mesh.triangles.push_back({below(i), above(j), above(j + 1)}), ++j;
+    }
+  }
+  return mesh;
+}
+
+/// What is seen of two_spheres(distance), as one closed surface whose edges run along the circle where they meet.
+inline TriangleMesh united_spheres(double distance, double edge) {
+  const double end = std::acos(-distance / 2);  // angle from the outer pole to the circle
+  const int rings = static_cast<int>(std::ceil(end / (edge * std::sqrt(0.75))));
+  std::vector<std::array<double, 2>> curve;
+  for (int k = 0; k <= 2 * rings; ++k) {
+    const double angle = end * (k <= rings ? k : 2 * rings - k) / rings, x = -std::cos(angle);
+    curve.push_back({k <= rings ? x : distance - x, std::sin(angle)});
+  }
+  return turned_about_x(curve, edge);
 }
 
 inline std::shared_ptr<const TriangleMesh> shared(TriangleMesh mesh) {
