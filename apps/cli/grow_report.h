@@ -47,7 +47,8 @@ class GrowReport {
   ProgressBar& bar_;
   Json json_ = Json::object();
   std::size_t warnings_of_run_ = 0;
-  double bytes_ = 0;  ///< that the growth moved
+  double bytes_ = 0;                 ///< that the growth moved
+  std::vector<std::string> solved_;  ///< the linear systems of every stage, in words
 };
 
 }  // namespace pelage

@@ -68,7 +68,7 @@ void add_border(Fingerprint& f, const BorderCondition& c) {
 }
 
 void add_stage(Fingerprint& f, const StageProgram& s) {
-  f.add(s.name).add(s.model.fingerprint()).add(s.stepper->name).add(s.size).add(s.length_unit);
+  f.add(s.name).add(s.model.fingerprint()).add(s.stepper->name).add(s.solver->name).add(s.size).add(s.length_unit);
   add_optional(f, s.step);
   f.add(s.suggested_step).add(std::uint64_t{s.excluded}).add(s.seed);
   add_optional(f, s.points);

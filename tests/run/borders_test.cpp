@@ -158,7 +158,7 @@ TEST(Borders, EverySideAloneKeepsTheOrder) {
 TEST(Borders, OtherSteppersHeedThem) {
   for (const Kind kind : {Kind::value, Kind::flux, Kind::exchange}) {
     const double error = error_on(square(8, true), in_plane, kind, sbdf2).mean;
-    for (const StepperKind* stepper : {&rkc2, &explicit_euler, &semi_implicit})
+    for (const StepperKind* stepper : {&rkc2, &explicit_euler, &semi_implicit, &etd})
       if (kind != Kind::value || stepper->gives_values) {
         EXPECT_NEAR(error_on(square(8, true), in_plane, kind, *stepper).mean, error, 0.2 * error) << stepper->name;
       }
