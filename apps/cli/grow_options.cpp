@@ -63,6 +63,14 @@ std::vector<std::string> stepper_names() {
   return names;
 }
 
+/// "jacobi-cg (conjugate gradients, preconditioned by the diagonal), cg (...) ...".
+std::string solver_choices() {
+  std::vector<std::string> names;
+  for (const SolverKind* s : solver_kinds())
+    names.push_back(std::string(s->name) + " (" + std::string(s->summary) + ")");
+  return choices(names);
+}
+
 /// "loop (smooth, default) or linear (flat, faster)".
 std::string method_choices() {
   std::string text;
@@ -146,6 +154,9 @@ void add_time_options(CLI::App& app, GrowOptions& o) {
       ->group(group);
   app.add_option("--stepper", o.stepper,
                  "Time stepper (default: what suits the method and the model)" + choices(stepper_names()))
+      ->type_name("NAME")
+      ->group(group);
+  app.add_option("--solver", o.solver, "Solver of the linear systems of implicit steps, to compare" + solver_choices())
       ->type_name("NAME")
       ->group(group);
   app.add_option("--step", o.step, "Fixed time step, model time (default: chosen as the pattern allows)")
@@ -489,6 +500,7 @@ void apply(const GrowOptions& o, std::vector<Stage>& stages) {
     if (o.solid) stage.method = {std::string(tets_method.name), {"--solid"}};
     if (o.cells) stage.cells = Given<std::int64_t>{*o.cells, {"--cells"}};
     override(o.stepper, stage.stepper);
+    if (o.solver) stage.solver = {*o.solver, {"--solver"}};
     override(o.step, stage.step);
     override(o.until, stage.until);
     override(o.steps, stage.steps);

@@ -17,7 +17,7 @@ namespace pelage {
 /// What was given; what was not is empty and left to the recipe.
 struct GrowOptions {
   std::string shape;
-  std::optional<std::string> recipe, model, size, unit, quality, method, stepper, species, ramp;
+  std::optional<std::string> recipe, model, size, unit, quality, method, stepper, solver, species, ramp;
   std::vector<std::string> settings;  ///< "PARAM=VALUE" or "STAGE.PARAM=VALUE"
   std::vector<std::string> maps;      ///< "PARAM=FORMULA", likewise
   std::vector<std::string> textures;  ///< "NAME=FILE"

@@ -227,6 +227,11 @@ void GrowReport::growth(const Run& run, double seconds) {
 void GrowReport::grown(const Run& run, std::size_t stage, const RunSummary& s) {
   bytes_ += s.bytes;
   const StageProgram& p = run.program().stages[stage];
+  if (s.solves > 0)
+    solved_.push_back(std::string(p.stepper->name) + " solved " +
+                      counted(static_cast<std::size_t>(s.solves), "system") + " by " + std::string(p.solver->name) +
+                      " in " + counted(static_cast<std::size_t>(s.iterations), "iteration") + ", " +
+                      duration(s.solve_seconds));
   line("grown", (run.program().stages.size() > 1 ? p.name + ": " : "") +
                     counted(static_cast<std::size_t>(s.steps), "step") + " of " + std::string(p.stepper->name) +
                     " to time " + number(s.time) + "; " + stop_reason(s.status));
@@ -236,6 +241,8 @@ void GrowReport::grown(const Run& run, std::size_t stage, const RunSummary& s) {
                                       {"last_step", s.step},
                                       {"change", s.change},
                                       {"solver_iterations", s.iterations},
+                                      {"solves", s.solves},
+                                      {"solve_seconds", s.solve_seconds},
                                       {"rejected_steps", s.rejected},
                                       {"minimum", json_number(s.minimum)},
                                       {"maximum", json_number(s.maximum)}};
@@ -266,6 +273,7 @@ void GrowReport::profile(Profile& profile) {
     line("profile", p.name + ": " + duration(p.seconds) + ", " + brief(100 * p.seconds / total) + " %");
     json_["profile"]["seconds"][p.name] = p.seconds;
   }
+  for (const std::string& text : solved_) line("profile", text);
   if (!(bytes_ > 0) || !(growing > 0)) return;
   const double speed = bytes_ / growing, triad = triad_speed();
   line("profile", "growing moved " + brief(bytes_ / 1e9) + " GB, " + brief(speed / 1e9) +

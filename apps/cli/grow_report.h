@@ -53,6 +53,7 @@ class GrowReport {
   std::size_t warnings_of_run_ = 0;
   double bytes_ = 0;  ///< that the growth moved
   std::vector<std::pair<std::string, std::string>> files_;
+  std::vector<std::string> solved_;  ///< the linear systems of every stage, in words
 };
 
 }  // namespace pelage

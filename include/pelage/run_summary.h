@@ -25,6 +25,8 @@ struct RunSummary {
   std::int64_t iterations = 0;      ///< stages, or iterations of the linear solver, since the start or resumption
   double bytes = 0;                 ///< that went between memory and processor in them, at least; 0 where not counted
   std::int64_t rejected = 0;        ///< steps repeated with a smaller size
+  std::int64_t solves = 0;          ///< linear systems of these steps
+  double solve_seconds = 0;         ///< that they took
   double minimum = 0, maximum = 0;  ///< of the coefficients of all species
 };
 

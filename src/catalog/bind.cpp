@@ -121,6 +121,8 @@ StageProgram bind_stage(const PlannedStage& planned, const Program& program, con
   s.model = planned.model;
   s.model_name = asked.model.value;
   s.stepper = planned.stepper;
+  s.solver = planned.solver;
+  s.solver_asked = !asked.solver.value.empty();
   const StageSize size = stage_size(asked, planned.wavelength, scale);
   s.size = size.wavelength;
   s.length_unit = size.length_unit;

@@ -1,5 +1,5 @@
 #pragma once
-// The methods and steppers that recipes can name.
+// The methods, steppers and solvers that recipes can name.
 
 #include <vector>
 
@@ -12,6 +12,7 @@ namespace pelage {
 struct Components {
   std::vector<const Method*> methods = {pelage::methods().begin(), pelage::methods().end()};
   std::vector<const StepperKind*> steppers = {stepper_kinds().begin(), stepper_kinds().end()};
+  std::vector<const SolverKind*> solvers = {solver_kinds().begin(), solver_kinds().end()};
 };
 
 }  // namespace pelage

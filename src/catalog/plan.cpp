@@ -85,8 +85,10 @@ void take_cells(const std::optional<Given<std::int64_t>>& cells, Plan& p) {
 
 /// What keeps a stepper from growing a model with a method; empty if nothing does.
 std::string what_stepper_cannot(const StepperKind& stepper, const Method& method, const Model& model,
-                                const std::vector<Stage::Border>& borders) {
-  if (std::string what = what_borders_need(stepper, borders); !what.empty()) return what;
+                                const Stage& stage) {
+  if (std::string what = what_borders_need(stepper, stage.boundary); !what.empty()) return what;
+  if (!stage.solver.value.empty() && !stepper.solves)
+    return "use the solver \"" + stage.solver.value + "\": it solves no linear systems";
   if (!stepper.couples && !model.coupled().empty())
     return "grow \"" + model.name() + "\", whose species are coupled by lap()";
   if (!stepper.holds && model.held()) return "hold parts of the surface";
@@ -101,8 +103,8 @@ std::string what_stepper_cannot(const StepperKind& stepper, const Method& method
 
 /// Error(usage) where it cannot grow the model; the stepper that can do most, or the method, is to blame then.
 const StepperKind& require_able(const StepperKind& stepper, const Method& method, const Model& model,
-                                const std::vector<Stage::Border>& borders, const Location& where) {
-  const std::string what = what_stepper_cannot(stepper, method, model, borders);
+                                const Stage& stage, const Location& where) {
+  const std::string what = what_stepper_cannot(stepper, method, model, stage);
   const std::string other = method.symmetric
                                 ? "take \"" + std::string(sbdf2.name) + "\""
                                 : "take another stepper, or the method \"" +
@@ -113,19 +115,30 @@ const StepperKind& require_able(const StepperKind& stepper, const Method& method
 }
 
 /// The asked one, or else the first that can.
-const StepperKind* fitting_stepper(const Given<std::string>& asked, const Method& method, const Model& model,
-                                   const std::vector<Stage::Border>& borders, const Motion& motion,
+const StepperKind* fitting_stepper(const Stage& stage, const Method& method, const Model& model, const Motion& motion,
                                    const Components& components) {
+  const Given<std::string>& asked = stage.stepper;
   if (asked.value.empty()) {
     const bool dilutes = motion.growth != 0 && motion.mode.value == "physical";
     const auto can = [&](const StepperKind* kind) {
-      return what_stepper_cannot(*kind, method, model, borders).empty() && (kind->dilutes || !dilutes);
+      return what_stepper_cannot(*kind, method, model, stage).empty() && (kind->dilutes || !dilutes);
     };
     if (const auto found = std::ranges::find_if(components.steppers, can); found != components.steppers.end())
       return *found;
-    return &require_able(sbdf2, method, model, borders, {});
+    return &require_able(sbdf2, method, model, stage, {});
   }
-  return &require_able(component(asked, "stepper", components.steppers), method, model, borders, asked.where);
+  return &require_able(component(asked, "stepper", components.steppers), method, model, stage, asked.where);
+}
+
+const SolverKind* chosen_solver(const Given<std::string>& asked, const Model& model, const Components& components) {
+  if (asked.value.empty()) return components.solvers.front();
+  const SolverKind& solver = component(asked, "solver", components.solvers);
+  if (!model.coupled().empty())
+    throw Error(
+        Fault::usage,
+        "species that are coupled by lap() are solved for together, by conjugate gradients; leave the solver out",
+        asked.where);
+  return &solver;
 }
 
 const Quality& quality_called(const Given<std::string>& name) {
@@ -220,7 +233,8 @@ PlannedStage plan_stage(const Stage& stage, const Recipe& recipe, const Method& 
   const std::vector<std::string> fields = earlier_fields(before);
   p.model = compile(source, numbers_of(stage), stage_changes(source, stage, fields));
   require_fields(place_symbols(p.model), fields);
-  p.stepper = fitting_stepper(stage.stepper, method, p.model, stage.boundary, recipe.motion, components);
+  p.solver = chosen_solver(stage.solver, p.model, components);
+  p.stepper = fitting_stepper(stage, method, p.model, recipe.motion, components);
   p.borders = plan_borders(stage, p.model);
   if (stage.directions) plan_directions(*stage.directions, p);
   p.size_map = plan_size_map(stage, p.model);

@@ -21,6 +21,7 @@ struct PlannedStage {
   double wavelength = 0;  ///< of the model with its numbers, before formulas take the place of any [model length]
   bool wavelength_known = true;  ///< false: it is diffusion_length()
   const StepperKind* stepper = nullptr;
+  const SolverKind* solver = nullptr;
   std::optional<PlaceFormula> size_map;  ///< where a mesh alone tells it
   std::optional<PlaceFormula> from, to;  ///< of the directions
   std::vector<BorderCondition> borders;

@@ -486,12 +486,13 @@ std::vector<char> GridSpace::interior(std::vector<char> nodes) const {
   return inner;
 }
 
-/// The faces of the cells there, as cells of one dimension less.
+/// The faces of the cells there, as cells of one dimension less, with the quadrature of the cells: then the loads of
+/// inflows are what the stiffness makes of the same slopes.
 SpaceBorder GridSpace::border(const std::string& name) const {
   const std::optional<AxisEnd> side = grid_.dimension() == dimension_ ? axis_end(grid_, name) : std::nullopt;
   if (!side) return {};
   const std::size_t n = points_per_cell(), bit = std::size_t{1} << side->axis;
-  std::map<Index, double> weight;
+  std::map<Index, std::map<Index, double>> mass;
   const CellRule rule(dimension_ - 1, rule_.xi2);
   CellPoints points;
   for (std::size_t e = 0; e < cells().count(); ++e) {
@@ -508,14 +509,11 @@ SpaceBorder GridSpace::border(const std::string& name) const {
     fill_cell_points(rule, corners, points);
     for (std::size_t q = 0; q < face.size(); ++q)
       for (std::size_t c = 0; c < face.size(); ++c)
-        weight[cells().corner[e * n + face[c]]] += points[q].weight * rule.value[q][c];
+        for (std::size_t d = 0; d < face.size(); ++d)
+          mass[cells().corner[e * n + face[c]]][cells().corner[e * n + face[d]]] +=
+              points[q].weight * rule.value[q][c] * rule.value[q][d];
   }
-  SpaceBorder border;
-  for (const auto& [node, w] : weight) {
-    border.node.push_back(node);
-    border.weight.push_back(w);
-  }
-  return border;
+  return border_of(mass);
 }
 
 std::shared_ptr<const Space> GridSpace::moved(std::vector<Point> control) const {

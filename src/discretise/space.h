@@ -3,6 +3,7 @@
 // coefficients; every unknown has a node, the place whose value it stands for first of all; functions are sampled at
 // the nodes or at quadrature points.
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,11 +33,16 @@ struct ElementPoint {
   RowMatrix jet;                ///< rows: value, d/dv, d/dw; columns as in `function`
 };
 
-/// Nodes on a part of the border, and the integrals of their functions over it [world^(dimension - 1)].
+/// Nodes on a part of the border, and the integrals of products of their functions over it [world^(dimension - 1)].
+/// Inflows that are given at the nodes are loads mass * inflow. Lumped masses would be wrong by a load of the second
+/// order at the ends of sides, which makes an error of h^2 log(1/h) in corners.
 struct SpaceBorder {
   std::vector<Index> node;  ///< ascending
-  std::vector<double> weight;
+  SparseMatrix mass;        ///< rows and columns as in `node`
 };
+
+/// From the entries of its mass, by pairs of nodes.
+SpaceBorder border_of(const std::map<Index, std::map<Index, double>>& mass);
 
 /// Immutable, and shared by all stages of a run.
 class Space {

@@ -335,19 +335,14 @@ std::vector<char> TetSpace::interior(std::vector<char> nodes) const {
 
 SpaceBorder TetSpace::border(const std::string& name) const {
   if (name != "skin") return {};
-  std::vector<double> weight(points_.size(), 0.0);
+  std::map<Index, std::map<Index, double>> mass;
   for (const Triangle& t : connectivity_->skin) {
     const auto side = [&](std::size_t c) { return difference(points_[at(t[c])], points_[at(t[0])]); };
-    const double third = length(cross(side(1), side(2))) / 6;
-    for (const Index v : t) weight[at(v)] += third;
+    const double twelfth = length(cross(side(1), side(2))) / 24;
+    for (const Index v : t)
+      for (const Index w : t) mass[v][w] += v == w ? 2 * twelfth : twelfth;
   }
-  SpaceBorder border;
-  for (std::size_t v = 0; v < weight.size(); ++v) {
-    if (!(weight[v] > 0)) continue;
-    border.node.push_back(static_cast<Index>(v));
-    border.weight.push_back(weight[v]);
-  }
-  return border;
+  return border_of(mass);
 }
 
 std::shared_ptr<const Space> TetSpace::moved(std::vector<Point> control) const {

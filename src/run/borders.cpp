@@ -75,10 +75,12 @@ void Borders::add_inflows(const std::vector<Vector>& u, double t, std::vector<Ve
     const std::vector<double> none(side.border.node.size(), 0.0);
     const std::vector<double> flux = c.flux ? values(side, *c.flux, t) : none;
     const std::vector<double> loss = c.loss ? values(side, *c.loss, t) : none;
-    for (std::size_t k = 0; k < none.size(); ++k) {
-      const Index v = side.border.node[k];
-      load[v] += stage_->length_unit * side.border.weight[k] * (flux[k] - loss[k] * u[c.species][v]);
-    }
+    Vector inflow(static_cast<Eigen::Index>(none.size()));
+    for (std::size_t k = 0; k < none.size(); ++k)
+      inflow[static_cast<Eigen::Index>(k)] = flux[k] - loss[k] * u[c.species][side.border.node[k]];
+    const Vector loads_there = side.border.mass * inflow;
+    for (std::size_t k = 0; k < none.size(); ++k)
+      load[side.border.node[k]] += stage_->length_unit * loads_there[static_cast<Eigen::Index>(k)];
   }
 }
 

@@ -48,8 +48,8 @@ std::vector<Eigen::Matrix3d> constant_tensors(const StageProgram& stage, const S
 bool needs_no_matrices(const StageProgram& stage, const Space& space, const Material& material,
                        const std::vector<Eigen::Matrix3d>& tensors) {
   const Model& model = stage.model;
-  return stage.stepper->matrix_free && !tensors.empty() && !material.held && stage.borders.empty() &&
-         model.coupled().empty() && !model.has_gradients() &&
+  return stage.stepper->matrix_free && !stage.solver_asked && !tensors.empty() && !material.held &&
+         stage.borders.empty() && model.coupled().empty() && !model.has_gradients() &&
          std::ranges::none_of(tensors,
                               [&](const Eigen::Matrix3d& t) { return tilted_to_a_border(*space.lattice(), t); });
 }

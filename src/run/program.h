@@ -32,6 +32,8 @@ struct StageProgram {
   Model model;             ///< with what the stage changes in it
   std::string model_name;  ///< as the recipe gives it, with its variant
   const StepperKind* stepper = &sbdf2;
+  const SolverKind* solver = &jacobi_gradients;
+  bool solver_asked = false;   ///< so that there have to be matrices to solve with
   double size = 0;             ///< wanted wavelength [world units]
   bool size_known = true;      ///< false: `size` is not a wavelength but what the mesh has to resolve
   double length_unit = 0;      ///< world length of one model length unit: size / the model's wavelength

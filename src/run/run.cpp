@@ -78,11 +78,6 @@ void warn_of_anisotropy(const std::string& label, const Method& method, const St
   }
 }
 
-/// Steppers for even grids say themselves, before their first step, what they cannot grow.
-bool refuses(const StageProgram& p, const State& state, const StepReport& report) {
-  return p.stepper->lattice && state.step == 0 && !report.failure.empty() && !report.runaway;
-}
-
 void refuse(const StageProgram& p, const std::string& why, RunSummary& summary) {
   summary.status = RunStatus::failed;
   summary.message = "the stepper \"" + std::string(p.stepper->name) + "\" cannot grow \"" + p.model.name() +
@@ -240,11 +235,13 @@ const RunSummary& Run::advance(std::int64_t steps) {
     const StageProgram& p = stage_program();
     follow_surface(now_->state.time + next_step());
     now_->equations.update(now_->state);
-    StepRequest request{.dt = next_step(), .solver_tolerance = solver_tolerance};
+    StepRequest request{.dt = next_step(), .solver_tolerance = solver_tolerance, .solver = p.solver};
     if (p.adaptive()) request.largest_error = step_tolerance();
     const StepReport report = now_->stepper->step(system(), now_->state, request);
     now_->summary.iterations += report.iterations;
     now_->summary.bytes += report.bytes;
+    now_->summary.solves += report.solves;
+    now_->summary.solve_seconds += report.solve_seconds;
     if (report.accepted) {
       accept(report, request.dt);
       ++k;
@@ -252,7 +249,7 @@ const RunSummary& Run::advance(std::int64_t steps) {
         fail("the fields change so fast that the step is " + number(now_->step) + ", far below the model's of " +
                  number(p.suggested_step),
              {});
-    } else if (refuses(p, now_->state, report)) {
+    } else if (report.refused) {
       refuse(p, report.failure, now_->summary);
     } else if (p.adaptive() && request.dt > smallest_step_fraction * p.suggested_step) {
       ++now_->summary.rejected;

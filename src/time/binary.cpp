@@ -103,6 +103,13 @@ std::vector<std::uint32_t> whole_numbers(const std::vector<double>& values) {
   return weights;
 }
 
+std::string why_not(const System& system, const std::vector<std::size_t>& evolving) {
+  if (std::string why = why_no_waves(system); !why.empty()) return why;
+  if (system.lattice->count[2] > 1) return "it does not grow in three dimensions";
+  if (evolving.size() != 2) return "it grows pairs of species, and these are " + std::to_string(evolving.size());
+  return {};
+}
+
 /// Binary convolution (Witkin, Kass 1991, section 5; Young 1984): where species decay so fast that only what is being
 /// made counts, the state is where the first is more than the second, and a round
 ///   u_i = k / b (G_i * on),   on = u_0 > u_1
@@ -178,19 +185,14 @@ int Binary::spread_bits(ThresholdPair& pair) {
 }
 
 StepReport Binary::step(const System& system, State& state, const StepRequest& request) {
-  StepReport report;
-  report.failure = why_no_waves(system);
-  if (report.failure.empty() && system.lattice->count[2] > 1) report.failure = "it does not grow in three dimensions";
   const std::vector<std::size_t> evolving = evolving_species(system);
-  if (report.failure.empty() && evolving.size() != 2)
-    report.failure = "it grows pairs of species, and these are " + std::to_string(evolving.size());
-  if (!report.failure.empty()) return report;
+  if (std::string why = why_not(system, evolving); !why.empty()) return refusal(std::move(why));
+  StepReport report;
   parts_.split(system, state.now, state.time);
   // What spreads less is made where there is more of it.
   const bool in_order = system.species[evolving[0]].tensor->trace() < system.species[evolving[1]].tensor->trace();
   ThresholdPair pair{.species = {evolving[in_order ? 0 : 1], evolving[in_order ? 1 : 0]}, .on = {}};
-  report.failure = find_pair(system, state, parts_, pair);
-  if (!report.failure.empty()) return report;
+  if (std::string why = find_pair(system, state, parts_, pair); !why.empty()) return refusal(std::move(why));
   if (!convolution_) bind(system, pair);
   next_ = state.now;
   if (state.step == 0) report.iterations = spread_start(system, pair);
@@ -200,22 +202,10 @@ StepReport Binary::step(const System& system, State& state, const StepRequest& r
   return report;
 }
 
-/// It is no scheme for any equation, and no step is too long.
-Eigen::MatrixXd amplification(const Linearisation& l, double, const Eigen::MatrixXd&) {
-  return Eigen::MatrixXd::Zero(l.jacobian.rows(), l.jacobian.cols());
-}
-
 }  // namespace
 
 constexpr StepperKind binary_stepper = {.name = "binary",
-                                        .alias = "",
                                         .make = []() -> std::unique_ptr<Stepper> { return std::make_unique<Binary>(); },
-                                        .samples = SampleRule::vertices,
-                                        .adaptive = false,
-                                        .couples = false,
-                                        .holds = false,
-                                        .keeps_rates = false,
-                                        .amplification = amplification,
                                         .lattice = true,
                                         .matrix_free = true,
                                         .nodal = true};

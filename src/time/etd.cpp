@@ -3,6 +3,7 @@
 
 #include "base/dense.h"
 #include "base/parallel.h"
+#include "time/etd_series.h"
 #include "time/exponential.h"
 #include "time/lattice_step.h"
 
@@ -46,6 +47,7 @@ void Multipliers::update(const LatticeTransform<double>& transform, double step,
 ///   b   = e^(hL) u + h phi_1(hL) (2 N(a) - N(u))
 ///   u'  = e^(hL) u + h phi_1 N(u) + 4h (phi_2 - 2 phi_3) (N(a) - N(u)) + h (4 phi_3 - phi_2) (N(b) - N(u))
 /// The scheme of second order that takes N(u) and N(a) alone differs by h (4 phi_3 - phi_2) (N(u) - 2 N(a) + N(b)).
+/// Wave by wave on even grids that need no matrices, and elsewhere by series, see time/etd_series.h.
 class Etd final : public Stepper {
  public:
   StepReport step(const System& system, State& state, const StepRequest& request) override;
@@ -59,6 +61,7 @@ class Etd final : public Stepper {
   void to_field(std::vector<double>& waves, Vector& field) const;
   double finish(std::vector<Vector>& next);
 
+  EtdBySeries series_;
   std::optional<LatticeTransform<double>> transform_;
   std::vector<std::size_t> evolving_;
   LinearParts parts_;
@@ -107,9 +110,9 @@ double Etd::finish(std::vector<Vector>& next) {
 }
 
 StepReport Etd::step(const System& system, State& state, const StepRequest& request) {
+  if (system.mass) return series_.step(system, state, request);
+  if (std::string why = why_no_waves(system); !why.empty()) return refusal(std::move(why));
   StepReport report;
-  report.failure = why_no_waves(system);
-  if (!report.failure.empty()) return report;
   bind(system);
   const double h = request.dt, t = state.time;
   parts_.split(system, state.now, t);
@@ -162,19 +165,14 @@ Eigen::MatrixXd amplification(const Linearisation& l, double dt, const Eigen::Ma
 }  // namespace
 
 constexpr StepperKind etd = {.name = "etd",
-                             .alias = "",
                              .make = []() -> std::unique_ptr<Stepper> { return std::make_unique<Etd>(); },
-                             .samples = SampleRule::vertices,
                              .adaptive = true,
-                             .couples = false,
-                             .holds = false,
-                             .keeps_rates = false,
+                             .holds = true,
                              .amplification = amplification,
                              .tolerance = 3e-3,
                              .jump_tolerance = 1e-2,
                              .any_step = true,
-                             .lattice = true,
                              .matrix_free = true,
-                             .nodal = true};
+                             .symmetric = true};
 
 }  // namespace pelage

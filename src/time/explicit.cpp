@@ -23,7 +23,7 @@ class ForwardEuler final : public Stepper {
       next_[i] = state.now[i];
       if (species.algebraic) continue;
       StepMatrix& mass = species.mass ? own_mass_[i] : mass_;
-      mass.update(mass_of(system, i), 1, species.stiffness, 0);
+      mass.update(mass_of(system, i), 1, species.stiffness, 0, *request.solver);
       rhs_ = system.sampling->test * Vector(weight_of(system, i).cwiseProduct(rates_[i]));
       add_flux(fluxes, i, 1, rhs_);
       if (species.coupled) {
@@ -42,8 +42,8 @@ class ForwardEuler final : public Stepper {
       axpby(request.dt, slope_, 1, next_[i]);
     }
     if (!system.coupled.index.empty())
-      note_solve(solve_algebraic(system, state.time + request.dt, next_, request.solver_tolerance),
-                 coupled_names(system), report);
+      solve_noted(coupled_names(system), report,
+                  [&] { return solve_algebraic(system, state.time + request.dt, next_, request.solver_tolerance); });
     advance(system, state, request.dt, next_, report);
     return report;
   }
@@ -80,14 +80,11 @@ Eigen::MatrixXd amplification(const Linearisation& l, double dt, const Eigen::Ma
 
 constexpr StepperKind explicit_euler = {
     .name = "explicit",
-    .alias = "",
     .make = []() -> std::unique_ptr<Stepper> { return std::make_unique<ForwardEuler>(); },
-    .samples = SampleRule::vertices,
-    .adaptive = false,
     .couples = true,
     .holds = true,
-    .keeps_rates = false,
     .amplification = amplification,
-    .gives_values = true};
+    .gives_values = true,
+    .solves = true};
 
 }  // namespace pelage

@@ -55,9 +55,8 @@ void Gaussian::bind(const System& system) {
 }
 
 StepReport Gaussian::step(const System& system, State& state, const StepRequest& request) {
+  if (std::string why = why_no_waves(system); !why.empty()) return refusal(std::move(why));
   StepReport report;
-  report.failure = why_no_waves(system);
-  if (!report.failure.empty()) return report;
   bind(system);
   parts_.split(system, state.now, state.time);
   next_ = state.now;
@@ -89,13 +88,7 @@ Eigen::MatrixXd amplification(const Linearisation& l, double dt, const Eigen::Ma
 
 constexpr StepperKind gaussian_stepper = {
     .name = "gaussian",
-    .alias = "",
     .make = []() -> std::unique_ptr<Stepper> { return std::make_unique<Gaussian>(); },
-    .samples = SampleRule::vertices,
-    .adaptive = false,
-    .couples = false,
-    .holds = false,
-    .keeps_rates = false,
     .amplification = amplification,
     .lattice = true,
     .matrix_free = true,

@@ -45,8 +45,9 @@ StepReport generalised_step(const Assembler& assembler, const std::vector<Point>
       b += dt * load(sampling, source);
     }
     Vector x = result.col(k);
-    note_solve(conjugate_gradient(matrix, preconditioner, b, x, nullptr, {.tolerance = solver_tolerance}, work),
-               "component " + std::to_string(k), report);
+    solve_noted("component " + std::to_string(k), report, [&] {
+      return conjugate_gradient(matrix, preconditioner, b, x, nullptr, {.tolerance = solver_tolerance}, work);
+    });
     result.col(k) = x;
   }
   if (!report.failure.empty()) return report;

@@ -43,11 +43,14 @@ std::vector<std::size_t> evolving_species(const System& system) {
   return evolving;
 }
 
-/// The fields themselves, with products of gradients behind them where rates read such.
+/// The fields themselves where they are samples, with products of gradients behind them where rates read such.
 const std::vector<Vector>& LinearParts::at_samples(const System& system, const std::vector<Vector>& fields) {
-  if (!system.add_gradients) return fields;
-  samples_ = fields;
-  system.add_gradients(fields, samples_);
+  if (sampling_ != system.sampling) {
+    sampling_ = system.sampling;
+    nodal_ = !system.mass || unknowns_are_samples(*sampling_);
+  }
+  if (nodal_ && !system.add_gradients) return fields;
+  sample_fields(system, fields, samples_);
   return samples_;
 }
 
@@ -61,25 +64,26 @@ void LinearParts::split(const System& system, const std::vector<Vector>& now, do
   c2_.resize(now.size());
   for (const Vector& field : u) in.push_back(field.data());
   for (std::size_t i = 0; i < now.size(); ++i) {
-    c2_[i].resize(now[i].size());
-    rest_[i].resize(now[i].size());
+    c2_[i].resize(system.sampling->count());
+    rest_[i].resize(system.sampling->count());
     c2.push_back(c2_[i].data());
     c3.push_back(rest_[i].data());
   }
-  parallel_for(static_cast<std::size_t>(now[0].size()),
+  parallel_for(static_cast<std::size_t>(system.sampling->count()),
                [&](std::size_t begin, std::size_t end) { system.reaction.split(in, t, begin, end, c2, c3); });
   for (const std::size_t i : evolving_species(system)) {
     if (const auto constant = constant_of(c2_[i]))
       c_[i] = *constant;
     else
-      rest_[i] += c2_[i].cwiseProduct(now[i]);
+      rest_[i] += c2_[i].cwiseProduct(u[i]);
   }
 }
 
 void LinearParts::evaluate(const System& system, const std::vector<Vector>& stage, double t) {
-  evaluate_rates(system, at_samples(system, stage), t, rest_);
+  const std::vector<Vector>& u = at_samples(system, stage);
+  evaluate_rates(system, u, t, rest_);
   for (const std::size_t i : evolving_species(system))
-    if (c_[i] != 0) axpby(-c_[i], stage[i], 1, rest_[i]);
+    if (c_[i] != 0) axpby(-c_[i], u[i], 1, rest_[i]);
 }
 
 }  // namespace pelage

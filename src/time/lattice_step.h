@@ -1,6 +1,7 @@
 #pragma once
-// What steppers share that take the diffusion of an even grid exactly, wave by wave:
-//   du_i/dt = div T_i grad u_i + c_i u_i + N_i(u, t),   c_i constant.
+// What steppers share that take the linear part of their equations apart,
+//   du_i/dt = div T_i grad u_i + c_i u_i + N_i(u, t),   c_i constant,
+// most of them on even grids, where every wave spreads and decays exactly.
 
 #include "base/parallel.h"
 #include "discretise/lattice_stencil.h"
@@ -15,7 +16,8 @@ std::string why_no_waves(const System& system);
 /// The numbers of the species that evolve.
 std::vector<std::size_t> evolving_species(const System& system);
 
-/// c_i: where C2 of the split R_i = C2 u_i + C3 is the same at all samples that C2, else 0. N_i = R_i - c_i u_i.
+/// c_i: where C2 of the split R_i = C2 u_i + C3 is the same at all samples that C2, else 0. N_i = R_i - c_i u_i, at
+/// the samples.
 class LinearParts {
  public:
   /// Finds c at a state, and N there.
@@ -32,6 +34,8 @@ class LinearParts {
 
   std::vector<double> c_;
   std::vector<Vector> rest_, c2_, samples_;
+  std::shared_ptr<const Sampling> sampling_;
+  bool nodal_ = false;
 };
 
 /// body(wave, number) for all numbers of all waves, from several threads.

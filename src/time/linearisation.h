@@ -17,4 +17,9 @@ struct Linearisation {
 /// One step of a scheme as a matrix on the amplitudes (of as many states as it remembers); `decay` = k^2 D.
 using Amplification = Eigen::MatrixXd(const Linearisation& linearisation, double dt, const Eigen::MatrixXd& decay);
 
+/// Of steppers that are no scheme for the course of time: no step is too long.
+inline Eigen::MatrixXd amplify_nothing(const Linearisation& l, double, const Eigen::MatrixXd&) {
+  return Eigen::MatrixXd::Zero(l.jacobian.rows(), l.jacobian.cols());
+}
+
 }  // namespace pelage

@@ -688,13 +688,9 @@ Eigen::MatrixXd amplification(const Linearisation& l, double dt, const Eigen::Ma
 std::unique_ptr<Stepper> make_rkc2(const Rkc2Options& options) { return std::make_unique<Rkc2>(options); }
 
 constexpr StepperKind rkc2 = {.name = "rkc2",
-                              .alias = "",
                               .make = []() -> std::unique_ptr<Stepper> { return make_rkc2(); },
-                              .samples = SampleRule::vertices,
                               .adaptive = true,
-                              .couples = false,
                               .holds = true,
-                              .keeps_rates = false,
                               .amplification = amplification,
                               .tolerance = 3e-3,
                               .jump_tolerance = 1e-2,

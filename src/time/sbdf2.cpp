@@ -170,7 +170,8 @@ void Sbdf2::solve_coupled(const System& system, const State& state, const Scheme
     x.push_back(std::move(next_[i]));
   }
   coupled_.update(system.mass, c.stiffness, flux);
-  note_solve(coupled_.solve(b, x, {.tolerance = request.solver_tolerance}), coupled_names(system), report);
+  solve_noted(coupled_names(system), report,
+              [&] { return coupled_.solve(b, x, {.tolerance = request.solver_tolerance}); });
   for (std::size_t k = 0; k < c.index.size(); ++k) next_[c.index[k]] = std::move(x[k]);
 }
 
@@ -210,7 +211,7 @@ StepReport Sbdf2::step(const System& system, State& state, const StepRequest& re
     const Species& species = system.species[i];
     if (species.follows) next_[i] = state.now[i];
     if (species.coupled || species.follows) continue;
-    matrices_[i].update(mass_of(system, i), s.alpha, species.stiffness, dt * species.diffusion);
+    matrices_[i].update(mass_of(system, i), s.alpha, species.stiffness, dt * species.diffusion, *request.solver);
     right_hand_side(system, s, i);
     first_guess(system, state, i, dt);
     matrices_[i].solve(rhs_, next_[i], held_of(system, i), species.name, request.solver_tolerance, report);
@@ -250,9 +251,7 @@ Eigen::MatrixXd amplification(const Linearisation& l, double dt, const Eigen::Ma
 }  // namespace
 
 constexpr StepperKind sbdf2 = {.name = "sbdf2",
-                               .alias = "",
                                .make = []() -> std::unique_ptr<Stepper> { return std::make_unique<Sbdf2>(); },
-                               .samples = SampleRule::vertices,
                                .adaptive = true,
                                .couples = true,
                                .holds = true,
@@ -262,6 +261,7 @@ constexpr StepperKind sbdf2 = {.name = "sbdf2",
                                .jump_tolerance = 1e-2,
                                .dilutes = true,
                                .gives_values = true,
-                               .symmetric = true};
+                               .symmetric = true,
+                               .solves = true};
 
 }  // namespace pelage

@@ -15,11 +15,10 @@ class SemiImplicitEuler final : public Stepper {
  public:
   StepReport step(const System& system, State& state, const StepRequest& request) override {
     const double dt = request.dt;
+    if (!system.coupled.index.empty() || system.held)
+      return refusal("it neither couples species by Laplacians nor holds any");
     StepReport report;
-    if (!system.coupled.index.empty() || system.held) {
-      report.failure = "semi-implicit Euler neither couples species by Laplacians nor holds any";
-      return report;
-    }
+    use(*request.solver);
     sample_fields(system, state.now, samples_);
     split(system, state.time);
     next_ = state.now;
@@ -34,9 +33,8 @@ class SemiImplicitEuler final : public Stepper {
       combine(1, matrix_, dt * species.diffusion, *species.stiffness, matrix_);
       Vector b = mass * state.now[i] + dt * load(*system.sampling, c3_[i].cwiseProduct(over_c0));
       add_flux(fluxes, i, dt, b);
-      note_solve(conjugate_gradient(matrix_, Jacobi(diagonal(matrix_)), b, next_[i], nullptr,
-                                    {.tolerance = request.solver_tolerance}, work_),
-                 species.name, report);
+      solver_->update(matrix_);
+      solve_noted(species.name, report, [&] { return solver_->solve(b, next_[i], nullptr, request.solver_tolerance); });
     }
     advance(system, state, dt, next_, report);
     return report;
@@ -59,8 +57,15 @@ class SemiImplicitEuler final : public Stepper {
                  [&](std::size_t begin, std::size_t end) { system.reaction.split(u, t, begin, end, c2, c3); });
   }
 
+  void use(const SolverKind& kind) {
+    if (kind_ == &kind) return;
+    kind_ = &kind;
+    solver_ = kind.make();
+  }
+
   SparseMatrix matrix_;
-  ConjugateGradientWork<Vector> work_;
+  const SolverKind* kind_ = nullptr;
+  std::unique_ptr<LinearSolver> solver_;
   std::vector<Vector> samples_, c2_, c3_, next_;
 };
 
@@ -77,11 +82,8 @@ constexpr StepperKind semi_implicit = {
     .alias = "paper",
     .make = []() -> std::unique_ptr<Stepper> { return std::make_unique<SemiImplicitEuler>(); },
     .samples = SampleRule::quadrature,
-    .adaptive = false,
-    .couples = false,
-    .holds = false,
-    .keeps_rates = false,
     .amplification = amplification,
-    .symmetric = true};
+    .symmetric = true,
+    .solves = true};
 
 }  // namespace pelage

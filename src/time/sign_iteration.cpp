@@ -9,7 +9,7 @@ namespace {
 
 /// Rounds of a step at most.
 constexpr int most_rounds = 25;
-/// On residuals, relative: while rates still jump, and for those that seem to have come to rest.
+/// On residuals, relative: while rates still jump, and at most for those that seem to have come to rest.
 constexpr double first_tolerance = 1e-2, last_tolerance = 1e-6;
 
 /// The steady state of species that decay at constant rates b_i and are made at rates that only jump, as in threshold
@@ -26,9 +26,9 @@ class SignIteration final : public Stepper {
 
  private:
   std::string why_not(const System& system) const;
-  void solve(const System& system, double decay_factor, StepReport& report);
+  void solve(const System& system, double decay_factor, const SolverKind& solver, StepReport& report);
   void solve_wave_by_wave(const System& system, double decay_factor);
-  void solve_with_matrices(const System& system, double decay_factor, StepReport& report);
+  void solve_with_matrices(const System& system, double decay_factor, const SolverKind& solver, StepReport& report);
 
   LinearParts parts_;
   std::vector<std::size_t> evolving_;
@@ -70,30 +70,30 @@ void SignIteration::solve_wave_by_wave(const System& system, double decay_factor
   }
 }
 
-void SignIteration::solve_with_matrices(const System& system, double decay_factor, StepReport& report) {
+void SignIteration::solve_with_matrices(const System& system, double decay_factor, const SolverKind& solver,
+                                        StepReport& report) {
   matrices_.resize(system.species.size());
   for (const std::size_t i : evolving_) {
     const Species& species = system.species[i];
     const SharedMatrix& mass = mass_of(system, i);
-    matrices_[i].update(mass, -decay_factor * parts_.c(i), species.stiffness, species.diffusion);
+    matrices_[i].update(mass, -decay_factor * parts_.c(i), species.stiffness, species.diffusion, solver);
     const Vector rhs = system.sampling->test * Vector(weight_of(system, i).cwiseProduct(made_[i]));
     matrices_[i].solve(rhs, next_[i], nullptr, species.name, tolerance_, report);
   }
 }
 
-void SignIteration::solve(const System& system, double decay_factor, StepReport& report) {
+void SignIteration::solve(const System& system, double decay_factor, const SolverKind& solver, StepReport& report) {
   if (!system.mass)
     solve_wave_by_wave(system, decay_factor);
   else
-    solve_with_matrices(system, decay_factor, report);
+    solve_with_matrices(system, decay_factor, solver, report);
 }
 
 StepReport SignIteration::step(const System& system, State& state, const StepRequest& request) {
-  StepReport report;
   evolving_ = evolving_species(system);
   parts_.split(system, state.now, state.time);
-  report.failure = why_not(system);
-  if (!report.failure.empty()) return report;
+  if (std::string why = why_not(system); !why.empty()) return refusal(std::move(why));
+  StepReport report;
   next_ = state.now;
   made_.resize(next_.size());
   tolerance_ = first_tolerance;
@@ -105,11 +105,12 @@ StepReport SignIteration::step(const System& system, State& state, const StepReq
       made_[i] = parts_.rest(i);
       if (spreads) axpby(-parts_.c(i), next_[i], 1, made_[i]);
     }
-    solve(system, spreads ? 2 : 1, report);
+    solve(system, spreads ? 2 : 1, *request.solver, report);
     parts_.evaluate(system, next_, state.time);
     jumps = spreads || std::ranges::any_of(evolving_, [&](std::size_t i) { return made_[i] != parts_.rest(i); });
-    if (!jumps && system.mass && tolerance_ > last_tolerance) {
-      tolerance_ = last_tolerance;
+    const double last = std::min(last_tolerance, request.solver_tolerance);
+    if (!jumps && system.mass && tolerance_ > last) {
+      tolerance_ = last;
       jumps = true;
     }
     if (!system.mass) ++report.iterations;
@@ -118,25 +119,14 @@ StepReport SignIteration::step(const System& system, State& state, const StepReq
   return report;
 }
 
-/// It is no scheme for the course of time, and no step is too long.
-Eigen::MatrixXd amplification(const Linearisation& l, double, const Eigen::MatrixXd&) {
-  return Eigen::MatrixXd::Zero(l.jacobian.rows(), l.jacobian.cols());
-}
-
 }  // namespace
 
 constexpr StepperKind sign_iteration = {
     .name = "sign-iteration",
-    .alias = "",
     .make = []() -> std::unique_ptr<Stepper> { return std::make_unique<SignIteration>(); },
-    .samples = SampleRule::vertices,
-    .adaptive = false,
-    .couples = false,
-    .holds = false,
-    .keeps_rates = false,
-    .amplification = amplification,
     .matrix_free = true,
     .nodal = true,
-    .symmetric = true};
+    .symmetric = true,
+    .solves = true};
 
 }  // namespace pelage

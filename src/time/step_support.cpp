@@ -1,6 +1,7 @@
 #include "time/step_support.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "base/number.h"
@@ -129,10 +130,15 @@ void note_runaway(const Runaway& runaway, StepReport& report) {
       std::isnan(runaway.value) ? "the step leads to what is not a number" : "the step leads beyond all bounds";
 }
 
-void StepMatrix::update(const SharedMatrix& mass, double alpha, const SharedMatrix& stiffness, double beta) {
-  if (alpha == alpha_ && beta == beta_ && mass == mass_ && stiffness == stiffness_) return;
-  combine(alpha, *mass, beta, *stiffness, matrix_);
-  preconditioner_ = Jacobi(diagonal(matrix_));
+void StepMatrix::update(const SharedMatrix& mass, double alpha, const SharedMatrix& stiffness, double beta,
+                        const SolverKind& solver) {
+  const bool same_solver = kind_ == &solver;
+  if (same_solver && alpha == alpha_ && beta == beta_ && mass == mass_ && stiffness == stiffness_) return;
+  if (!same_solver) solver_ = solver.make();
+  if (!matrix_) matrix_ = std::make_unique<SparseMatrix>();
+  combine(alpha, *mass, beta, *stiffness, *matrix_);
+  solver_->update(*matrix_);
+  kind_ = &solver;
   mass_ = mass;
   stiffness_ = stiffness;
   alpha_ = alpha;
@@ -141,9 +147,10 @@ void StepMatrix::update(const SharedMatrix& mass, double alpha, const SharedMatr
 
 void StepMatrix::solve(const Vector& b, Vector& x, const Held* held, const std::string& species, double tolerance,
                        StepReport& report) {
-  note_solve(conjugate_gradient(matrix_, preconditioner_, b, x, held, {.tolerance = tolerance}, work_), species,
-             report);
+  solve_noted(species, report, [&] { return solver_->solve(b, x, held, tolerance); });
 }
+
+namespace {
 
 void note_solve(const SolveReport& solve, const std::string& names, StepReport& report) {
   report.iterations += solve.iterations;
@@ -155,6 +162,23 @@ void note_solve(const SolveReport& solve, const std::string& names, StepReport& 
     report.failure = "the solve for " + names + " meets what is not a number";
   else if (!solve.converged)
     report.failure = "the solve for " + names + " did not converge (residual " + number(solve.residual) + ")";
+}
+
+}  // namespace
+
+void solve_noted(const std::string& names, StepReport& report, const std::function<SolveReport()>& solve) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  note_solve(solve(), names, report);
+  report.solve_seconds += std::chrono::duration<double>(Clock::now() - begin).count();
+  ++report.solves;
+}
+
+StepReport refusal(std::string why) {
+  StepReport report;
+  report.failure = std::move(why);
+  report.refused = true;
+  return report;
 }
 
 std::string coupled_names(const System& system) {

@@ -30,25 +30,28 @@ inline constexpr double negligible = 1e-80;
 /// species that lies far below `negligible` everywhere is 0 from then on: solvers cannot square smaller numbers.
 void advance(const System& system, State& state, double dt, std::vector<Vector>& next, StepReport& report);
 
-/// alpha M + beta K_i for one species, kept while alpha, beta and the matrices stay the same.
+/// alpha M + beta K_i for one species, kept while alpha, beta, the matrices and the solver stay the same.
 class StepMatrix {
  public:
-  void update(const SharedMatrix& mass, double alpha, const SharedMatrix& stiffness, double beta);
-  /// Solves for one right-hand side; x holds the first guess, which `held` unknowns keep. Updates iterations, residual
-  /// and failure of the report.
+  void update(const SharedMatrix& mass, double alpha, const SharedMatrix& stiffness, double beta,
+              const SolverKind& solver = jacobi_gradients);
+  /// Solves for one right-hand side; x holds the first guess, which `held` unknowns keep.
   void solve(const Vector& b, Vector& x, const Held* held, const std::string& species, double tolerance,
              StepReport& report);
 
  private:
   SharedMatrix mass_, stiffness_;
   double alpha_ = 0, beta_ = 0;
-  SparseMatrix matrix_;
-  Jacobi<Vector> preconditioner_;
-  ConjugateGradientWork<Vector> work_;
+  std::unique_ptr<SparseMatrix> matrix_;  ///< at a place of its own, which the solver knows
+  const SolverKind* kind_ = nullptr;
+  std::unique_ptr<LinearSolver> solver_;
 };
 
-/// `names`: of the species that were solved for.
-void note_solve(const SolveReport& solve, const std::string& names, StepReport& report);
+/// Notes iterations, residual, seconds and failure of a solve in the report; `names`: of the species that are solved
+/// for.
+void solve_noted(const std::string& names, StepReport& report, const std::function<SolveReport()>& solve);
+/// What a stepper answers that cannot grow a system.
+StepReport refusal(std::string why);
 /// Makes it the failure of the step.
 void note_runaway(const Runaway& runaway, StepReport& report);
 std::string coupled_names(const System& system);

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "linalg/linear_solver.h"
 #include "time/linearisation.h"
 #include "time/system.h"
 
@@ -22,14 +23,17 @@ struct Runaway {
 struct StepReport {
   bool accepted = false;           ///< the state has advanced
   std::string failure;             ///< why it has not; empty when only the error estimate was too large
+  bool refused = false;            ///< the failure is that the stepper cannot grow the system, whatever the step
   std::optional<Runaway> runaway;  ///< where that was a value
   int iterations = 0;              ///< stages, or of the linear solver, all species together
   double bytes = 0;     ///< that these read and wrote, at least: every array once a pass; 0 where not counted
   double residual = 0;  ///< relative, the largest of all species
-  double error = 0;     ///< estimated local error relative to the size of the fields; 0 when unknown
-  double change = 0;    ///< of the pattern per unit of time: root mean square of du/dt over that of the deviation
-                        ///< from the mean, the largest of all species. A growing pattern changes by its growth
-                        ///< rate however faint it is; only a finished one comes to rest.
+  int solves = 0;       ///< linear systems
+  double solve_seconds = 0;
+  double error = 0;   ///< estimated local error relative to the size of the fields; 0 when unknown
+  double change = 0;  ///< of the pattern per unit of time: root mean square of du/dt over that of the deviation
+                      ///< from the mean, the largest of all species. A growing pattern changes by its growth
+                      ///< rate however faint it is; only a finished one comes to rest.
   double minimum = 0, maximum = 0;  ///< over the coefficients of all species
 };
 
@@ -37,6 +41,7 @@ struct StepRequest {
   double dt = 0;
   double largest_error = std::numeric_limits<double>::infinity();  ///< reject the step above this estimate
   double solver_tolerance = 1e-10;
+  const SolverKind* solver = &jacobi_gradients;  ///< of steppers with StepperKind::solves
 };
 
 class Stepper {
@@ -48,25 +53,26 @@ class Stepper {
 /// What the rest of the program knows of a stepper.
 struct StepperKind {
   std::string_view name;
-  std::string_view alias;  ///< an older name, or empty
-  std::unique_ptr<Stepper> (*make)();
-  SampleRule samples;  ///< where it evaluates the reaction
-  bool adaptive;       ///< reports an error by which the step is chosen; else steps have to stay below the limit of
-                       ///< linear stability
-  bool couples;        ///< grows species that are linked by lap()
-  bool holds;          ///< heeds System::held
-  bool keeps_rates;    ///< State::past_rates
-  Amplification* amplification;  ///< of a wave, see time/linearisation.h
-  double tolerance = 0;          ///< of adaptive ones: error per step that pictures do not show
-  double jump_tolerance = 0;     ///< the same where rates jump: nodes that a front has just passed count as errors, but
-                                 ///< only the front is late, by part of a step
-  bool any_step = false;         ///< stable at every step: its error estimate alone limits the step
-  bool dilutes = false;          ///< of second order where amounts ride along with a surface that grows
-  bool lattice = false;          ///< only for systems on a lattice whose species have a Species::tensor
-  bool matrix_free = false;      ///< needs no matrices where a lattice and tensors are known
-  bool gives_values = false;     ///< heeds System::set_values and Species::held
-  bool nodal = false;            ///< only for systems whose unknowns are the values at the samples
-  bool symmetric = false;        ///< solves for unknowns with stiffness matrices, which then have to be symmetric
+  std::string_view alias = {};  ///< an older name, or empty
+  std::unique_ptr<Stepper> (*make)() = nullptr;
+  SampleRule samples = SampleRule::vertices;       ///< where it evaluates the reaction
+  bool adaptive = false;                           ///< reports an error by which the step is chosen; else steps have to
+                                                   ///< stay below the limit of linear stability
+  bool couples = false;                            ///< grows species that are linked by lap()
+  bool holds = false;                              ///< heeds System::held
+  bool keeps_rates = false;                        ///< State::past_rates
+  Amplification* amplification = amplify_nothing;  ///< of a wave, see time/linearisation.h
+  double tolerance = 0;                            ///< of adaptive ones: error per step that pictures do not show
+  double jump_tolerance = 0;  ///< the same where rates jump: nodes that a front has just passed count as errors, but
+                              ///< only the front is late, by part of a step
+  bool any_step = false;      ///< stable at every step: its error estimate alone limits the step
+  bool dilutes = false;       ///< of second order where amounts ride along with a surface that grows
+  bool lattice = false;       ///< only for systems on a lattice whose species have a Species::tensor
+  bool matrix_free = false;   ///< needs no matrices where a lattice and tensors are known
+  bool gives_values = false;  ///< heeds System::set_values and Species::held
+  bool nodal = false;         ///< only for systems whose unknowns are the values at the samples
+  bool symmetric = false;     ///< solves with stiffness matrices, or sums powers of them: they have to be symmetric
+  bool solves = false;        ///< heeds StepRequest::solver
 };
 
 extern const StepperKind sbdf2;           ///< second-order semi-implicit backward differences, variable step (Ruuth
@@ -78,8 +84,10 @@ extern const StepperKind rkc2;  ///< second-order stabilised explicit Runge-Kutt
                                 ///< (Sommeijer, Shampine, Verwer 1997)
 extern const StepperKind sign_iteration;  ///< rounds of implicit solves to the steady state of threshold patterns
 
+extern const StepperKind etd;  ///< exponential time differencing of third order (Cox, Matthews 2002): wave by wave on
+                               ///< even grids, elsewhere by Chebyshev series
+
 // On even grids, of waves that spread and decay exactly:
-extern const StepperKind etd;               ///< exponential time differencing of third order (Cox, Matthews 2002)
 extern const StepperKind gaussian_stepper;  ///< convolution with Gaussians (Witkin, Kass 1991, eq. 12), of first order
 extern const StepperKind binary_stepper;    ///< convolution of bits (Witkin, Kass 1991, section 5): for threshold pairs
 

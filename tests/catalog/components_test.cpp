@@ -62,13 +62,7 @@ Eigen::MatrixXd amplification(const Linearisation& l, double dt, const Eigen::Ma
 }
 
 const StepperKind midpoint = {.name = "midpoint",
-                              .alias = "",
                               .make = []() -> std::unique_ptr<Stepper> { return std::make_unique<Midpoint>(); },
-                              .samples = SampleRule::vertices,
-                              .adaptive = false,
-                              .couples = false,
-                              .holds = false,
-                              .keeps_rates = false,
                               .amplification = amplification};
 
 Recipe small_recipe(const std::string& method, const std::string& stepper) {

@@ -155,7 +155,7 @@ TEST(GridGrowth, WhatGridsCannotIsRefused) {
   EXPECT_NE(refusal("model = \"turing\"\nmethod = \"loop\"\n", tile).find("is for surfaces"), std::string::npos);
   Recipe moving = parse_recipe("[stage]\nmodel = \"turing\"\n[motion]\ngrowth = 0.1\n", "test");
   EXPECT_THROW(make_program(moving, tile), Error);
-  const Recipe lattice = parse_recipe("[stage]\nmodel = \"turing\"\nstepper = \"etd\"\n", "test");
+  const Recipe lattice = parse_recipe("[stage]\nmodel = \"turing\"\nstepper = \"gaussian\"\n", "test");
   EXPECT_THROW(make_program(lattice, load_shape("builtin:sphere?n=642")), Error);
   const Recipe cells = parse_recipe("[stage]\nmodel = \"turing\"\nsize = \"12px\"\n", "test");
   EXPECT_THROW(make_program(cells, load_shape("builtin:sphere?n=642")), Error);

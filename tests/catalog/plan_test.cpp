@@ -50,6 +50,25 @@ TEST(Plan, FindsWhatNeedsNoShape) {
   EXPECT_EQ(fault_of_plan(turing + "size-map = \"1 + s*0.1*bx\"\n"), "");  // parameters are known there, too
 }
 
+/// A solver asks for a stepper that solves.
+TEST(Plan, SolversBelongToImplicitSteppers) {
+  EXPECT_EQ(plan(parse_recipe(turing, "t")).stages[0].stepper, &rkc2);
+  const Plan planned = plan(parse_recipe(turing + "solver = \"red-black\"\n", "t"));
+  EXPECT_EQ(planned.stages[0].stepper, &sbdf2);
+  EXPECT_EQ(planned.stages[0].solver, &coloured_sweeps);
+  const auto expect = [](const std::string& more, const std::string& what) {
+    EXPECT_NE(fault_of_plan(turing + more).find(what), std::string::npos) << fault_of_plan(turing + more);
+  };
+  expect("solver = \"red\"\n", "test.toml:4:10: unknown solver \"red\"");
+  for (const std::string stepper : {"rkc2", "etd", "gaussian", "binary"})
+    expect("stepper = \"" + stepper + "\"\nsolver = \"sor\"\n", "it solves no linear systems");
+  for (const std::string stepper : {"sbdf2", "semi-implicit", "explicit", "sign-iteration"})
+    EXPECT_EQ(fault_of_plan(turing + "stepper = \"" + stepper + "\"\nsolver = \"sor\"\n"), "");
+  EXPECT_NE(
+      fault_of_plan("[stage]\nmodel = \"swift-hohenberg\"\nsize = 0.5\nsolver = \"cg\"\n").find("coupled by lap()"),
+      std::string::npos);
+}
+
 TEST(Bind, FindsWhatNeedsTheShape) {
   EXPECT_EQ(fault_of_bind(turing), "");
   EXPECT_NE(

@@ -44,8 +44,12 @@ BorderCondition condition(const Exact& exact, const std::string& side, const std
   return c;
 }
 
-/// At the time 0.1, as the root of the integral of its square.
-double error_on(const NodeShape& nodes, const Exact& exact, Kind kind, const StepperKind& stepper) {
+/// At the time 0.1: the root of the integral of its square, and the largest at any node.
+struct ErrorNorms {
+  double mean = 0, largest = 0;
+};
+
+ErrorNorms error_on(const NodeShape& nodes, const Exact& exact, Kind kind, const StepperKind& stepper) {
   const Method& method = std::holds_alternative<TetMesh>(nodes) ? tets_method : grid_method;
   Program program;
   program.method = &method;
@@ -66,16 +70,20 @@ double error_on(const NodeShape& nodes, const Exact& exact, Kind kind, const Ste
   Vector error(run.space().unknowns());
   for (Index v = 0; v < run.space().unknowns(); ++v)
     error[v] = run.coefficients()[0][v] - exact.value(run.space().control()[static_cast<std::size_t>(v)], 0.1);
-  return std::sqrt(error.dot(*run.system().mass * error));
+  return {std::sqrt(error.dot(*run.system().mass * error)), error.cwiseAbs().maxCoeff()};
 }
 
 void expect_second_order(const std::function<NodeShape(std::int32_t)>& grid, std::int32_t n, const Exact& exact,
-                         double largest, const StepperKind& stepper = sbdf2) {
+                         double largest, const StepperKind& stepper = sbdf2, double order_of_largest = 1.9) {
   for (const Kind kind : {Kind::value, Kind::flux, Kind::exchange}) {
-    const double coarse = error_on(grid(n), exact, kind, stepper), fine = error_on(grid(2 * n), exact, kind, stepper);
-    EXPECT_LT(fine, largest) << static_cast<int>(kind);
-    EXPECT_GE(std::log2(coarse / fine), 1.9) << exact.slope[0].first << " " << stepper.name << " "
-                                             << static_cast<int>(kind) << ": " << coarse << " " << fine;
+    const ErrorNorms coarse = error_on(grid(n), exact, kind, stepper),
+                     fine = error_on(grid(2 * n), exact, kind, stepper);
+    const std::string which =
+        exact.slope[0].first + " " + std::string(stepper.name) + " " + std::to_string(static_cast<int>(kind));
+    EXPECT_LT(fine.mean, largest) << which;
+    EXPECT_GE(std::log2(coarse.mean / fine.mean), 1.9) << which << ": " << coarse.mean << " " << fine.mean;
+    EXPECT_GE(std::log2(coarse.largest / fine.largest), order_of_largest)
+        << which << ": " << coarse.largest << " " << fine.largest;
   }
 }
 
@@ -149,10 +157,10 @@ TEST(Borders, EverySideAloneKeepsTheOrder) {
 
 TEST(Borders, OtherSteppersHeedThem) {
   for (const Kind kind : {Kind::value, Kind::flux, Kind::exchange}) {
-    const double error = error_on(square(8, true), in_plane, kind, sbdf2);
-    for (const StepperKind* stepper : {&rkc2, &explicit_euler, &semi_implicit})
+    const double error = error_on(square(8, true), in_plane, kind, sbdf2).mean;
+    for (const StepperKind* stepper : {&rkc2, &explicit_euler, &semi_implicit, &etd})
       if (kind != Kind::value || stepper->gives_values) {
-        EXPECT_NEAR(error_on(square(8, true), in_plane, kind, *stepper), error, 0.2 * error) << stepper->name;
+        EXPECT_NEAR(error_on(square(8, true), in_plane, kind, *stepper).mean, error, 0.2 * error) << stepper->name;
       }
   }
 }
@@ -175,7 +183,7 @@ TEST(Borders, ConditionsAreOfSecondOrderOnCurvedSheets) {
     }
     return g;
   };
-  expect_second_order(cylinder, 10, exact, 2e-3);
+  expect_second_order(cylinder, 16, exact, 1e-3);
 }
 
 TEST(Borders, ConditionsAreOfSecondOrderInBlocks) {
@@ -218,7 +226,8 @@ TEST(Borders, ConditionsAreOfSecondOrderOnTheSkinOfABall) {
                        }};
   const TriangleMesh sphere = builtin_shape("builtin:sphere?n=20000");
   const auto ball = [&](std::int32_t n) { return fill(sphere, 1.0 / n, 4'000'000).volume; };
-  expect_second_order(ball, 5, exact, 3e-2);
+  // The worst tetrahedra of two fillings differ.
+  expect_second_order(ball, 5, exact, 3e-2, sbdf2, 1.8);
 }
 
 std::string fault_of(const std::string& boundary, bool periodic = false, const std::string& more = "") {

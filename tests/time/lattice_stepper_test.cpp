@@ -202,6 +202,7 @@ TEST_P(EveryLatticeStepper, RefusesWhatItCannotDo) {
     change(s);
     const StepReport report = make_stepper(GetParam())->step(s.system, s.state, {.dt = 0.1});
     EXPECT_EQ(report.accepted, report.failure.empty());
+    EXPECT_EQ(report.refused, !report.accepted);
     return report.failure;
   };
   EXPECT_EQ(refusal([](LatticeSystem&) {}), "");

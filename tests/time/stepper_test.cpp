@@ -6,6 +6,7 @@
 
 #include "discretise/surface_space.h"
 #include "shape/generators.h"
+#include "support/split_reaction.h"
 #include "support/steppers.h"
 #include "verify/problem.h"
 
@@ -23,10 +24,7 @@ struct Bench {
     system.weighted_mass = [this](const Vector& f) {
       return assembler.mass(problem.control, std::vector<double>(f.begin(), f.end()));
     };
-    set_reaction([](const std::vector<double>&, std::vector<double>& c2, std::vector<double>& c3) {
-      std::fill(c2.begin(), c2.end(), 0.0);
-      std::fill(c3.begin(), c3.end(), 0.0);
-    });
+    set_reaction([](const std::vector<double>&, std::vector<double>&, std::vector<double>&) {});
   }
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
@@ -42,24 +40,8 @@ struct Bench {
   /// c2 and c3 of all species from the values of all species; R = c2 u + c3.
   template <class Split>
   void set_reaction(Split split) {
-    system.reaction.split = [split](const FieldPointers& u, double, std::size_t begin, std::size_t end,
-                                    const MutableFieldPointers& c2, const MutableFieldPointers& c3) {
-      std::vector<double> value(u.size()), a(u.size()), b(u.size());
-      for (std::size_t s = begin; s < end; ++s) {
-        for (std::size_t i = 0; i < u.size(); ++i) value[i] = u[i][s];
-        split(value, a, b);
-        for (std::size_t i = 0; i < u.size(); ++i) c2[i][s] = a[i], c3[i][s] = b[i];
-      }
-    };
-    system.reaction.rates = [split](const FieldPointers& u, double, std::size_t begin, std::size_t end,
-                                    const MutableFieldPointers& rate) {
-      std::vector<double> value(u.size()), a(u.size()), b(u.size());
-      for (std::size_t s = begin; s < end; ++s) {
-        for (std::size_t i = 0; i < u.size(); ++i) value[i] = u[i][s];
-        split(value, a, b);
-        for (std::size_t i = 0; i < u.size(); ++i) rate[i][s] = a[i] * value[i] + b[i];
-      }
-    };
+    pelage::set_reaction(system, [split](const std::vector<double>& u, double, std::vector<double>& c2,
+                                         std::vector<double>& c3) { split(u, c2, c3); });
   }
 
   Problem problem;
