@@ -56,7 +56,7 @@ int run(int argc, char** argv, CLI::App& app, const std::vector<pelage::Command>
   } catch (const Error& error) {
     return report(error.what(), exit_code_of(error.fault()), json);
   } catch (const std::bad_alloc&) {
-    return report("out of memory; take a coarser mesh, a larger --size or a smaller --detail",
+    return report("out of memory; take a coarser mesh, a larger --size, a smaller --detail or fewer texels",
                   static_cast<int>(Fault::input), json);
   } catch (const std::exception& error) {
     return report(std::string("unexpected failure: ") + error.what() + "; please report it",

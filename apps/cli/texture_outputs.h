@@ -13,7 +13,7 @@
 namespace pelage {
 
 inline constexpr int smallest_texture = 16, default_texture = 2048, largest_texture = 16384;  ///< texels along a side
-inline constexpr double bytes_of_a_texel = 27;  ///< that baking and writing need at once, about
+inline constexpr double bytes_of_a_texel = 29;  ///< that baking and writing colours and heights need at once, about
 
 /// The images of a mesh.
 struct CoatTextures {

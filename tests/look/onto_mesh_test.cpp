@@ -51,12 +51,14 @@ Difference difference_of(const Pixels& a, const Pixels& b, const TriangleMesh& m
   return d;
 }
 
-/// Flat triangles lie on themselves.
+/// Flat triangles lie on themselves; beyond the borders of charts, where without it colours end, they go on.
 TEST(OntoMesh, OntoItselfIsAsWithoutIt) {
   const Coat coat(torus(1000), linear_method, 0.03, waves);
   const BakedTile plain = std::move(baked(coat, painted("u"), 256).tiles[0]),
                   onto = baked_onto(coat, *coat.fields.shape, 256);
-  EXPECT_LE(difference_of(plain.color, onto.color, *coat.fields.shape).worst, 1);
+  const Difference difference = difference_of(plain.color, onto.color, *coat.fields.shape);
+  EXPECT_LE(difference.worst, 2);
+  EXPECT_LT(difference.mean, 0.01);
 }
 
 /// Between flat triangles and the smooth surface of the same mesh lies an offset of second order, along the surface.
