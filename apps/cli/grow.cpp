@@ -175,15 +175,18 @@ void grow(const GrowOptions& options) {
   const UpAxis up = options.view.up.value_or(file.up);
   const Carving carving = carving_of(options, planned, up);
   check_kind(options, recipe.look, file, carving);
-  make_atlas(options, recipe, file, progress, report);
+  std::optional<ShapeFile> onto = read_onto(options, recipe, file, progress, report);
+  ShapeFile& imaged = onto ? *onto : file;
+  make_atlas(options, recipe, imaged, progress, report);
   if (options.print.any() && is_for<Cells>(planned))
     throw Error(Fault::usage,
                 "--perforate and --thicken cut whole surfaces; cells may lie on any: take another --method");
   check_print(options.print, recipe.look, file, wants_images(options), names_of_species(planned));
-  const std::optional<UvLayout> layout = layout_of(options, file, report);
+  const std::optional<UvLayout> layout = layout_of(options, imaged, report);
+  if (layout) require_memory(*layout, recipe.look, onto || recipe.look.channels.contains(Channel::height));
   if (!recipe.look.keep_shape && !layout) file.source.reset();
 
-  const CoatRequest request{options, recipe.look, file, layout, carving};
+  const CoatRequest request{options, recipe.look, file, layout, onto, carving};
   std::shared_ptr<const Program> program;
   auto run = interruptible("before the growth began; nothing was written", [&] {
     program = std::make_shared<const Program>(bind_plan(planned, file, std::move(images)));
@@ -192,6 +195,7 @@ void grow(const GrowOptions& options) {
   CheckpointFile saved(options.checkpoint, options.every_minutes);
   grow_run(options, *run, request, saved, progress, report);
   SaveOptions form{object_name(file, recipe.shape), up};
+  if (onto && options.bake) form = {object_name(*onto, options.onto), options.view.up.value_or(onto->up)};
   form.compress = options.compress;
   if (film) {
     film->end_with(*run, recipe.look);

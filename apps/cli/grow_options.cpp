@@ -289,6 +289,11 @@ void add_file_options(CLI::App& app, GrowOptions& o, const std::string& group) {
          "has a height; of UDIM tiles PREFIX-color.1001.png and so on")
       ->type_name("PREFIX")
       ->group(group);
+  app.add_option("--onto", o.onto,
+                 "With --bake or --maps: make these images for another mesh of the same shape, a coarser one for "
+                 "example, by the nearest places of the coat; -o of --bake writes that mesh")
+      ->type_name("MESH")
+      ->group(group);
   app.add_flag("--mips", o.mips,
                "Beside --maps of a surface: PREFIX-color.ktx2, the colours with all their mip levels, which are "
                "blurred on the "
@@ -593,6 +598,7 @@ Recipe make_recipe(const GrowOptions& options) {
 void check_inputs(const GrowOptions& options, const Recipe& recipe) {
   for (const TextureFile& texture : recipe.textures) require_file(texture.path);
   check_shape_name(recipe.shape);
+  if (!options.onto.empty()) check_shape_name(options.onto);
   if (options.nested && !names_grid(recipe.shape))
     throw Error(Fault::usage, "--nested begins on coarser grids, and the shape is no grid; leave it out");
   if (options.nested && !options.resume.empty())
@@ -616,7 +622,13 @@ void check_images(const GrowOptions& options, const std::string& shape) {
   if (options.mips && options.baked_maps.empty())
     throw Error(Fault::usage,
                 "--mips goes with --maps PREFIX, whose colours it writes with their mip levels; give it too");
+  if (!options.onto.empty() && !wants_images(options))
+    throw Error(Fault::usage, "--onto is for images: give --bake N, or --maps PREFIX, too");
   if (!wants_images(options)) return;
+  if (!options.onto.empty() && (names_grid(shape) || names_atlas(shape) || options.solid))
+    throw Error(Fault::usage, "--onto is for coats of surfaces, and the shape is none or grows in its volume");
+  if (!options.onto.empty() && (names_grid(options.onto) || names_atlas(options.onto)))
+    throw Error(Fault::usage, "--onto " + options.onto + ": expected a mesh");
   if (names_grid(shape) && !names_atlas(shape))
     throw Error(Fault::usage, "--bake and --maps are for surfaces with uv and for patches; of a grid write a .png");
   if (options.flat || options.detail.value_or(0) > 0)

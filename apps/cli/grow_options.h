@@ -39,6 +39,7 @@ struct GrowOptions {
   std::string picture, panels, plot, height_map, patch_images, checkpoint, resume;
   std::optional<int> bake;        ///< texels along a side of images on meshes
   std::string baked_maps;         ///< how the names of such images begin
+  std::string onto;               ///< another mesh of the same shape that these are for, or empty
   bool mips = false;              ///< whether they have their smaller copies with them
   std::vector<std::string> cuts;  ///< "x < 0"
   std::optional<std::string> isosurface;

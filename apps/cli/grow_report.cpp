@@ -137,6 +137,16 @@ void GrowReport::shape(const std::string& name, const ShapeFile& file) {
                     {"findings", json_findings(file.findings)}};
 }
 
+void GrowReport::onto(const std::string& name, const ShapeFile& file) {
+  line("onto", name + ": " + counted(file.mesh.points.size(), "vertex") + ", " +
+                   counted(file.mesh.triangles.size(), "triangle"));
+  for (const Finding& f : file.findings) line(f.repaired ? "repaired" : "noted", f.text);
+  json_["onto"] = {{"name", name},
+                   {"vertices", file.mesh.points.size()},
+                   {"triangles", file.mesh.triangles.size()},
+                   {"findings", json_findings(file.findings)}};
+}
+
 void GrowReport::pattern(const Run& run) {
   const double diagonal = box_of(run.world().points()).diagonal();
   double finest = std::numeric_limits<double>::infinity();

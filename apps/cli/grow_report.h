@@ -20,6 +20,8 @@ class GrowReport {
   GrowReport(Form form, ProgressBar& bar) : form_(form), bar_(bar) {}
 
   void shape(const std::string& name, const ShapeFile& file);
+  /// Of --onto.
+  void onto(const std::string& name, const ShapeFile& file);
   void warning(const std::string& text);
   /// Those that the run did not give before.
   void warnings(const Run& run);

@@ -7,12 +7,15 @@
 #include "look/coat_sampler.h"
 #include "look/dress.h"
 #include "look/mip_levels.h"
+#include "look/onto_mesh.h"
 #include "look/sheet_image.h"
 #include "look/solid_tessellation.h"
 #include "look/tessellation.h"
 #include "node_outputs.h"
+#include "shape/normals.h"
 #include "shape/simplify.h"
 #include "shape/triangulate.h"
+#include "shape/vectors.h"
 #include "text.h"
 
 namespace pelage {
@@ -54,27 +57,66 @@ TriangleMesh shaded_mesh(const PolygonMesh& textured, const TriangleMesh& shape)
   return mesh.triangles.size() == shape.triangles.size() ? mesh : shape;
 }
 
-/// The coat on the surface that it has grown on, as images on the file's own mesh.
-void bake_surface(const CoatFields& fields, const CoatRequest& request, Grown& grown, GrowReport& report) {
-  const auto& [options, look, file, wanted_layout, carving] = request;
-  const UvLayout& layout = *wanted_layout;
+/// The mesh that shows the images, and its triangles.
+struct ImagedMesh {
+  PolygonMesh polygons;
+  const TriangleMesh& triangles;
+  const SourceShape* source;
+};
+
+/// The file's own mesh, or that of --onto with normals, from which normal maps count.
+ImagedMesh imaged_mesh(const CoatFields& fields, const CoatRequest& request, const Grown& grown) {
   const Cells* cells = as<Cells>(fields.nodes);
   const TriangleMesh& shape = cells ? *cells->on : *grown.shape;
-  Look as_given = look;
-  as_given.keep_shape = true;
-  grown.textured = kept_shape(form_of_shape(file, shape), dress(fields, as_given), grown.paint);
+  if (!request.onto) {
+    Look as_given = request.look;
+    as_given.keep_shape = true;
+    return {kept_shape(form_of_shape(request.file, shape), dress(fields, as_given), grown.paint), shape,
+            request.file.source.get()};
+  }
+  const TriangleMesh& mesh = request.onto->mesh;
+  TriangleMesh normals{mesh.points, mesh.triangles, {}, {}, mesh.metres_per_unit};
+  Attribute normal{"normal", 3, Domain::vertex, {}};
+  for (const Point& n : vertex_normals(mesh)) normal.values.insert(normal.values.end(), n.begin(), n.end());
+  normals.set(std::move(normal));
+  return {kept_shape(form_of_shape(*request.onto, mesh), normals, grown.paint), mesh, request.onto->source.get()};
+}
+
+/// Farther from the coat than this share of its diagonal a mesh shows what cannot be meant.
+constexpr double far_share = 0.02;
+
+std::string line_of(const FarTriangles& far, const ImagedMesh& mesh, double distance) {
+  return counted(far.count, "triangle") + " of --onto, " + (far.count > 1 ? "the first one of" : "of") + " face " +
+         std::to_string(face_in_file(far.first, mesh.triangles, mesh.source)) + ", " +
+         (far.count > 1 ? "lie" : "lies") + " farther than " + brief(distance) + " (" + brief(far_share) +
+         " of the diagonal) from the coat, up to " + brief(far.furthest) + ": the nearest place is shown all the same";
+}
+
+/// The coat on the surface that it has grown on, as images on a mesh.
+void bake_surface(const CoatFields& fields, const CoatRequest& request, Grown& grown, GrowReport& report) {
+  const UvLayout& layout = *request.layout;
+  ImagedMesh mesh = imaged_mesh(fields, request, grown);
+  const TriangleMesh& shape = mesh.triangles;
   if (const std::string line = too_coarse(shape, layout.size(), fields.wavelength); !line.empty()) report.warning(line);
   std::optional<ShadingFrames> frames;
-  if (grown.paint.channels.contains(Channel::height)) frames.emplace(shaded_mesh(*grown.textured, shape));
-  Look smooth = look;
+  if (request.onto || grown.paint.channels.contains(Channel::height)) frames.emplace(shaded_mesh(mesh.polygons, shape));
+  Look smooth = request.look;
   smooth.keep_shape = false;
   const Tessellation t = tessellate(fields, tessellation_request(smooth, grown.paint));
-  const CoatSampler sampler(fields, t, grown.paint);
+  std::optional<OntoMesh> onto;
+  if (request.onto) {
+    onto.emplace(shape, t);
+    const double distance = far_share * box_of(t.samples.position).diagonal();
+    const FarTriangles far = onto->farther_than(distance);
+    if (far.count > 0) report.warning(line_of(far, mesh, distance));
+  }
+  const CoatSampler sampler(fields, t, grown.paint, onto ? &*onto : nullptr);
   const Palette palette = make_palette(grown.paint, t.samples, fields.uniform);
   BakedCoat baked = bake(sampler, palette, layout, frames ? &*frames : nullptr);
-  for (const std::string& line : lines_of({baked.hidden}, shape, file.source.get())) report.warning(line);
+  for (const std::string& line : lines_of({baked.hidden}, shape, mesh.source)) report.warning(line);
   grown.textures = textures_of(std::move(baked), layout);
-  if (options.mips) grown.textures->levels = mip_levels(sampler, palette, shape, layout);
+  if (request.options.mips) grown.textures->levels = mip_levels(sampler, palette, shape, layout);
+  grown.textured = std::move(mesh.polygons);
 }
 
 void require_sheet(const ShapeFile& file) {
@@ -151,6 +193,20 @@ void reduce(TriangleMesh& coat, const GrowOptions& options, GrowReport& report) 
                    " are left; the kind of the surface, its seams and the borders of materials need them");
 }
 
+/// The boxes of two meshes of one shape are about the same.
+void require_same_place(const std::string& path, const TriangleMesh& mesh, const TriangleMesh& shape) {
+  const Box own = box_of(mesh.points), of_shape = box_of(shape.points);
+  const double factor = own.diagonal() / of_shape.diagonal(),
+               apart = length(difference(own.middle(), of_shape.middle())) / of_shape.diagonal();
+  constexpr double most_factor = 2, most_apart = 0.5;
+  if (factor < most_factor && factor > 1 / most_factor && apart < most_apart) return;
+  throw Error(Fault::input,
+              "it is no mesh of the shape that the coat grows on: its diagonal is " + number(factor, 4) +
+                  " times that of the shape, and its middle " + number(apart, 4) +
+                  " diagonals away; is it in other units, or does another axis point upwards?",
+              {path});
+}
+
 void add_patches(const CoatFields& fields, const Look& look, const GrowOptions& options, Grown& grown) {
   grown.patches = patch_texture(fields, look, texture_size(options));
   if (!wants_images(options)) return;
@@ -160,10 +216,26 @@ void add_patches(const CoatFields& fields, const Look& look, const GrowOptions& 
 
 }  // namespace
 
+std::optional<ShapeFile> read_onto(const GrowOptions& options, const Recipe& recipe, const ShapeFile& shape,
+                                   const Progress& progress, GrowReport& report) {
+  if (options.onto.empty()) return {};
+  if ((shape.nodes && !as<Cells>(shape.nodes)) || shape.mesh.triangles.empty())
+    throw Error(Fault::usage, "--onto is for coats of surfaces, and the shape is none or grows in its volume");
+  if (recipe.motion.growth != 0)
+    throw Error(Fault::usage, "--growth moves the coat away from the mesh of --onto: leave one of them out");
+  progress("reading " + options.onto, 0);
+  ShapeFile onto = read_surface(options.onto, options.input_unit);
+  if (onto.nodes || onto.mesh.triangles.empty())
+    throw Error(Fault::usage, "--onto " + options.onto + ": expected a mesh");
+  report.onto(options.onto, onto);
+  require_same_place(options.onto, onto.mesh, shape.mesh);
+  return onto;
+}
+
 void make_atlas(const GrowOptions& options, const Recipe& recipe, ShapeFile& file, const Progress& progress,
                 GrowReport& report) {
   if (!wants_images(options) || (file.nodes && !as<Cells>(file.nodes)) || file.mesh.triangles.empty() ||
-      has_uv(file.mesh) || !recipe.textures.empty())
+      has_uv(file.mesh) || (!recipe.textures.empty() && options.onto.empty()))
     return;
   auto [with_uv, line] = interruptible("before the growth began; nothing was written",
                                        [&] { return with_atlas(std::move(file), texture_size(options), progress); });
@@ -189,7 +261,7 @@ void check_coat(const CoatRequest& request) {
 
 Grown grown_coat(const CoatFields& fields, const std::shared_ptr<const TriangleMesh>& shape, const CoatRequest& request,
                  const Progress& progress, GrowReport& report) {
-  const auto& [options, look, file, layout, carving] = request;
+  const auto& [options, look, file, layout, onto, carving] = request;
   Grown grown{{}, {}, {}, shape, resolve_paint(look, fields.species), fields.nodes, {}, {}, {}};
   progress("colouring", 0);
   if (!options.height_map.empty()) write_relief(*as<Grid>(file.nodes), fields, look, options.height_map, report);

@@ -32,10 +32,17 @@ struct CoatRequest {
   const Look& look;
   const ShapeFile& file;
   const std::optional<UvLayout>& layout;  ///< of images on surfaces
+  const std::optional<ShapeFile>& onto;   ///< another mesh that shows these
   const Carving& carving;                 ///< of volumes
 };
 
-/// Where images are asked for, a surface without uv gets some; but for images that the recipe reads by uv.
+/// The mesh of --onto; none without it. Error(Fault::usage) for shapes and motions whose coats cannot be taken there,
+/// Error(Fault::input) for what is no mesh of the same shape.
+std::optional<ShapeFile> read_onto(const GrowOptions& options, const Recipe& recipe, const ShapeFile& shape,
+                                   const Progress& progress, GrowReport& report);
+
+/// Where images are asked for, a surface without uv gets some; but for images that the recipe reads by uv. `file`: the
+/// mesh that shows them.
 void make_atlas(const GrowOptions& options, const Recipe& recipe, ShapeFile& file, const Progress& progress,
                 GrowReport& report);
 

@@ -97,7 +97,7 @@ int run(const std::vector<std::string>& words) {
   } catch (const Error& error) {
     return report(error.what(), exit_code_of(error.fault()), json);
   } catch (const std::bad_alloc&) {
-    return report("out of memory; take a coarser mesh, a larger --size or a smaller --detail",
+    return report("out of memory; take a coarser mesh, a larger --size or a smaller --detail or fewer texels",
                   static_cast<int>(Fault::numerics), json);
   } catch (const std::exception& error) {
     return report(std::string("unexpected failure: ") + error.what() + "; please report it",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 
@@ -89,6 +90,43 @@ std::vector<std::string> save_patches(const PatchTexture& texture, const std::st
 
 // --- surfaces ------------------------------------------------------------------------------------------
 
+namespace {
+
+/// Whether the system gives so much memory at once.
+bool has_memory(double bytes) {
+  void* volatile const block = std::malloc(static_cast<std::size_t>(bytes));  // volatile, lest it be left out
+  const bool given = block != nullptr;
+  std::free(block);
+  return given;
+}
+
+std::string gigabytes(double bytes) { return fixed_number(bytes / 1e9, 1) + " GB"; }
+
+/// Of all tiles; `more`: bytes of a texel beside colour and height.
+double bytes_of_images(int size, std::size_t tiles, double more) {
+  constexpr double color_and_height = 7, with_files = 1.6;  // measured with all images, which go into files, too
+  return static_cast<double>(size) * size *
+         (bytes_of_a_texel + with_files * more + (color_and_height + more) * static_cast<double>(tiles - 1));
+}
+
+}  // namespace
+
+void require_memory(const UvLayout& layout, const Look& look, bool normals) {
+  double more = normals ? 3 : 0;
+  for (const auto& [channel, formula] : look.channels)
+    more += channel == Channel::emission ? 3 : channel == Channel::height ? 0 : 1;
+  const auto needed = [&](int size) { return bytes_of_images(size, layout.tiles().size(), more); };
+  if (has_memory(needed(layout.size()))) return;
+  int smaller = layout.size() / 2;
+  while (smaller > smallest_texture && !has_memory(needed(smaller))) smaller /= 2;
+  const std::size_t tiles = layout.tiles().size();
+  throw Error(Fault::numerics, "images of " + std::to_string(layout.size()) + " x " + std::to_string(layout.size()) +
+                                   " texels" + (tiles > 1 ? ", " + counted(tiles, "tile") + "," : "") + " need " +
+                                   gigabytes(needed(layout.size())) +
+                                   " of memory, which the system does not give; --bake " + std::to_string(smaller) +
+                                   " needs " + gigabytes(needed(smaller)));
+}
+
 std::string too_coarse(const TriangleMesh& shape, int size, double wavelength) {
   constexpr double enough = 12,
                    share = 0.05;  // texels of a wave, between which lookups are right to 3/255; of the area
@@ -124,9 +162,6 @@ UvLayout uv_layout(const TriangleMesh& shape, int size) {
   return UvLayout(shape.triangles, *shape.find("uv"), size);
 }
 
-namespace {
-
-/// The file's face of a triangle that it was cut into.
 std::size_t face_in_file(Index triangle, const TriangleMesh& shape, const SourceShape* source) {
   if (!source) return static_cast<std::size_t>(triangle);
   Triangle corners = shape.triangles[static_cast<std::size_t>(triangle)];
@@ -140,6 +175,8 @@ std::size_t face_in_file(Index triangle, const TriangleMesh& shape, const Source
   }
   return static_cast<std::size_t>(triangle);
 }
+
+namespace {
 
 /// "12 triangles, the first one of face 17, ".
 std::string line_of(const UvNote& note, std::size_t face) {

@@ -13,7 +13,7 @@
 namespace pelage {
 
 inline constexpr int smallest_texture = 16, default_texture = 2048, largest_texture = 16384;  ///< texels along a side
-inline constexpr double bytes_of_a_texel = 27;  ///< that baking and writing need at once, about
+inline constexpr double bytes_of_a_texel = 29;  ///< that baking and writing colours and heights need at once, about
 
 /// The images of a mesh.
 struct CoatTextures {
@@ -56,8 +56,15 @@ std::pair<ShapeFile, std::string> with_atlas(ShapeFile file, int size, const Pro
 /// Of a shape that the run has, for images of that size. Error(Fault::usage) where it has no uv.
 UvLayout uv_layout(const TriangleMesh& shape, int size);
 
+/// Refuses images for which there is no memory, so that nothing is grown in vain: Error(Fault::numerics) with what they
+/// need. `look`: of the coat; `normals`: whether there is a normal map.
+void require_memory(const UvLayout& layout, const Look& look, bool normals);
+
 /// What there is to say where texels are too long for a pattern of that wavelength, or "".
 std::string too_coarse(const TriangleMesh& shape, int size, double wavelength);
+
+/// The file's face of a triangle that it was cut into; without a file the triangle.
+std::size_t face_in_file(Index triangle, const TriangleMesh& shape, const SourceShape* source);
 
 /// What there is to say of it, a line each. Faces are counted as in the file.
 std::vector<std::string> lines_of(const std::vector<UvNote>& notes, const TriangleMesh& shape,

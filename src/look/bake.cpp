@@ -206,7 +206,7 @@ class TileBaker {
       tile_.height[texel] = static_cast<float>(mean_of(n, i, [&](std::size_t k) { return heights[k]; }));
       if (frames_ && n > 1)
         set_normal(texel, texels[i], std::span(samples.position).subspan(n * i, n),
-                   std::span(heights).subspan(n * i, n));
+                   std::span(samples.normal).subspan(n * i, n), std::span(heights).subspan(n * i, n));
     }
     bake_channels(texels, n, samples, colors);
   }
@@ -261,20 +261,30 @@ class TileBaker {
 
   /// The samples are those around the middle: halves of their differences are those along the sides of the texel.
   void set_normal(std::size_t texel, const UvLayout::Texel& t, std::span<const Point> position,
-                  std::span<const double> height) {
+                  std::span<const Point> surface_normal, std::span<const double> height) {
     const auto across = [&](std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
       return sum_of(difference(position[a], position[b]), difference(position[c], position[d]));
     };
-    const Point slope = gradient(across(1, 0, 3, 2), across(2, 0, 3, 1), height[1] - height[0] + height[3] - height[2],
-                                 height[2] - height[0] + height[3] - height[1]);
+    const Point slope =
+        !has_height_ ? Point{}
+                     : gradient(across(1, 0, 3, 2), across(2, 0, 3, 1), height[1] - height[0] + height[3] - height[2],
+                                height[2] - height[0] + height[3] - height[1]);
     const MeshPlace place = t.shows->place(t.x + 0.5, t.y + 0.5);
     const Point normal = mean_of_corners(place, [&](std::size_t c) -> const Point& { return frames_->normal[c]; });
     const Point tangent = mean_of_corners(place, [&](std::size_t c) -> const Point& { return frames_->tangent[c]; });
     Point bitangent = cross(normal, tangent);
     if (frames_->mirrored[3 * at(place.face)])
       for (double& x : bitangent) x = -x;
-    const Point bent = unit(sum_of(normal, laid_down(slope, normal), -1));
-    const Point seen = in_frame(bent, tangent, bitangent, normal);
+    // On the shape itself smooth shading stands for the smooth surface; another mesh shows that surface's own normals.
+    Point bare = normal;
+    if (coat_.onto_other()) {
+      bare = {};
+      for (const Point& n : surface_normal) bare = sum_of(bare, n);
+      bare = unit(bare);
+    }
+    const Point bent = unit(sum_of(bare, laid_down(slope, bare), -1));
+    Point seen = in_frame(bent, tangent, bitangent, normal);
+    if (seen[2] < 0) seen = unit({seen[0], seen[1], 0});  // no normal map looks back
     for (std::size_t k = 0; k < 3; ++k) tile_.normal.bytes[3 * texel + k] = signed_byte(seen[k]);
   }
 
@@ -314,6 +324,7 @@ class TileBaker {
   const ShadingFrames* frames_;
   const std::size_t number_;
   const int size_;
+  const bool has_height_ = palette_.paint.channels.contains(Channel::height);
   const SrgbBytes srgb_;
   std::vector<char> shown_;  ///< per texel
   const std::array<double, 256> light_of_byte_ = light_of_bytes();
@@ -338,7 +349,7 @@ ChannelScales scales_of(const CoatSamples& samples, const Palette& palette) {
 }  // namespace
 
 BakedCoat bake(const CoatSampler& coat, const Palette& palette, const UvLayout& layout, const ShadingFrames* frames) {
-  std::vector<char> hidden(coat.triangles().size(), 0);
+  std::vector<char> hidden(layout.face_count(), 0);
   BakedCoat baked;
   baked.scales = scales_of(coat.tessellation().samples, palette);
   for (std::size_t tile = 0; tile < layout.tiles().size(); ++tile)

@@ -41,8 +41,8 @@ struct BakedCoat {
   UvNote hidden{UvNote::Kind::overlapping};
 };
 
-/// `frames`: of the shape, for a normal map of the height; or null. Texels that show nothing have the mean of the
-/// others.
+/// `frames`: of the mesh that shows the coat, for a normal map of the height, and where that is not the shape of all
+/// that the coat's surface has beyond it; or null. Texels that show nothing have the mean of the others.
 BakedCoat bake(const CoatSampler& coat, const Palette& palette, const UvLayout& layout, const ShadingFrames* frames);
 
 }  // namespace pelage

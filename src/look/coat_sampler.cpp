@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/suggest.h"
+#include "look/onto_mesh.h"
 #include "pelage/cells.h"
 #include "shape/locate.h"
 #include "shape/refine.h"
@@ -22,9 +23,11 @@ bool reads(const Paint& paint, std::size_t species) {
 
 }  // namespace
 
-CoatSampler::CoatSampler(const CoatFields& fields, const Tessellation& tessellation, const Paint& paint)
+CoatSampler::CoatSampler(const CoatFields& fields, const Tessellation& tessellation, const Paint& paint,
+                         const OntoMesh* onto)
     : fields_(fields),
       t_(tessellation),
+      onto_(onto),
       shared_(without_samples(tessellation.samples)),
       smooth_(!fields.nodes && fields.method->smooth) {
   for (std::size_t i = 0; i < fields.species.size(); ++i) needed_.push_back(reads(paint, i));
@@ -45,7 +48,11 @@ const std::vector<Triangle>& CoatSampler::triangles() const {
   return cells ? cells->on->triangles : fields_.shape->triangles;
 }
 
-CoatSampler::Spot CoatSampler::spot_of(MeshPlace place) const {
+CoatSampler::Spot CoatSampler::spot_of(MeshPlace place, Index near) const {
+  if (onto_) {
+    const MeshPlace on_coat = onto_->on_coat(place, near);
+    return {at(on_coat.face), on_coat.v, on_coat.w, 0, 0};
+  }
   double v = std::max(place.v, 0.0), w = std::max(place.w, 0.0);
   if (v + w > 1) {
     const double sum = v + w;
@@ -63,9 +70,20 @@ CoatSampler::Spot CoatSampler::spot_of(MeshPlace place) const {
   return {at(fine.face), fine.v, fine.w, beyond_v, beyond_w};
 }
 
-MeshPlace CoatSampler::on_tessellation(const MeshPlace& place) const {
+MeshPlace CoatSampler::on_tessellation(const MeshPlace& place, const SurfaceWalk& walk) const {
   const Spot spot = spot_of(place);
-  return {static_cast<Index>(spot.face), spot.v, spot.w};
+  const MeshPlace within{static_cast<Index>(spot.face), spot.v, spot.w};
+  if (spot.beyond_v == 0 && spot.beyond_w == 0) return within;
+  const Point p = moved_beyond(point_at(t_.triangles, t_.samples.position, within), spot);
+  return walk.closest(Eigen::Vector3d(p.data()), within.face);
+}
+
+Point CoatSampler::moved_beyond(Point p, const Spot& s) const {
+  const Triangle& t = t_.triangles[s.face];
+  const std::vector<Point>& points = t_.samples.position;
+  const Point &a = points[at(t[0])], &b = points[at(t[1])], &c = points[at(t[2])];
+  for (std::size_t k = 0; k < 3; ++k) p[k] += s.beyond_v * (b[k] - a[k]) + s.beyond_w * (c[k] - a[k]);
+  return p;
 }
 
 Point CoatSampler::position(const Spot& s) const {
@@ -73,10 +91,7 @@ Point CoatSampler::position(const Spot& s) const {
   const std::vector<Point>& points = t_.samples.position;
   const MeshPlace place{static_cast<Index>(s.face), s.v, s.w};
   Point p = smooth_ ? smooth_point(t, points, t_.samples.normal, s.v, s.w) : point_at(t_.triangles, points, place);
-  if (!walk_ || (s.beyond_v == 0 && s.beyond_w == 0)) return p;
-  const Point &a = points[at(t[0])], &b = points[at(t[1])], &c = points[at(t[2])];
-  for (std::size_t k = 0; k < 3; ++k) p[k] += s.beyond_v * (b[k] - a[k]) + s.beyond_w * (c[k] - a[k]);
-  return p;
+  return walk_ ? moved_beyond(p, s) : p;
 }
 
 /// Of the mesh of the fields.
@@ -104,7 +119,7 @@ CoatSamples CoatSampler::samples(std::span<const MeshPlace> places) const {
   for (auto* points : {&s.position, &s.normal}) points->reserve(places.size());
   MeshPlace on_fields;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const Spot spot = spot_of(places[i]);
+    const Spot spot = spot_of(places[i], i > 0 ? linear[i - 1].face : -1);
     const MeshPlace& fine = linear.emplace_back(MeshPlace{static_cast<Index>(spot.face), spot.v, spot.w});
     s.position.push_back(position(spot));
     s.normal.push_back(unit(point_at(t_.triangles, from.normal, fine)));

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "base/srgb.h"
 #include "look/surface_blur.h"
+#include "shape/locate.h"
 #include "shape/refine.h"
 #include "shape/vectors.h"
 
@@ -27,6 +28,7 @@ class BlurredCoat {
       : coat_(coat),
         triangles_(coat.tessellation().triangles),
         points_(coat.tessellation().samples.position),
+        finest_(make_topology(points_.size(), triangles_), points_),
         light_(light_of(coat.tessellation(), palette)),
         surface_(triangles_, points_),
         edge_(mean_edge()),
@@ -102,7 +104,7 @@ class BlurredCoat {
   }
 
   double light_at(const MeshPlace& on_shape, std::size_t channel) const {
-    MeshPlace place = coat_.on_tessellation(on_shape);
+    MeshPlace place = coat_.on_tessellation(on_shape, finest_);
     for (int k = 0; k < coarser_; ++k) place = in_parent(place);
     const Triangle& corners = triangles_[static_cast<std::size_t>(place.face)];
     const Vector& u = light_[channel];
@@ -112,6 +114,7 @@ class BlurredCoat {
   const CoatSampler& coat_;
   std::vector<Triangle> triangles_;
   std::vector<Point> points_;
+  const SurfaceWalk finest_;
   std::vector<Vector> light_;
   SurfaceBlur surface_;
   double edge_;

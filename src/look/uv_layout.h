@@ -25,6 +25,7 @@ class UvLayout {
   UvLayout(const std::vector<Triangle>& triangles, const Attribute& uv, int size);
 
   int size() const { return size_; }
+  std::size_t face_count() const { return tile_of_face_.size(); }
   int gutter() const { return gutter_; }  ///< texels around charts that show the surface beyond their borders
   bool repeats() const { return repeats_ || tiles_ != std::vector<int>{1001}; }
   const std::vector<int>& tiles() const { return tiles_; }  ///< their numbers, 1001 + u + 10 v; one: a plain image

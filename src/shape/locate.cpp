@@ -27,6 +27,13 @@ SurfaceWalk::SurfaceWalk(const Topology& topology, const std::vector<Point>& poi
   for (const Point& p : points) points_.emplace_back(p.data());
 }
 
+SurfaceWalk::SurfaceWalk(const std::vector<Triangle>& triangles, const std::vector<Point>& points) {
+  faces_.reserve(triangles.size());
+  for (const Triangle& t : triangles) faces_.push_back({t, {-1, -1, -1}});
+  points_.reserve(points.size());
+  for (const Point& p : points) points_.emplace_back(p.data());
+}
+
 SurfaceWalk::~SurfaceWalk() = default;
 
 Vec SurfaceWalk::normal(Index face) const {
@@ -116,8 +123,9 @@ class SurfaceWalk::Tree {
   }
 
   /// The nearest triangle that faces along the normal; of equally near ones the first. Face -1 if there is none.
-  MeshPlace nearest(const Vec& p, const Vec& normal) const {
+  MeshPlace nearest(const Vec& p, const Vec& normal, Index near) const {
     Candidate best;
+    if (near >= 0) best = surface_.better(near, p, normal, best);
     visit(0, p, normal, best);
     return best.place;
   }
@@ -177,11 +185,11 @@ class SurfaceWalk::Tree {
   std::vector<Node> nodes_;
 };
 
-MeshPlace SurfaceWalk::search(const Vec& p, const Vec& normal) const {
+MeshPlace SurfaceWalk::search(const Vec& p, const Vec& normal, Index near) const {
   if (faces_.empty()) return {};
   std::call_once(tree_built_, [&] { tree_ = std::make_unique<Tree>(*this); });
-  const MeshPlace facing = tree_->nearest(p, normal);
-  return facing.face >= 0 ? facing : tree_->nearest(p, Vec::Zero());
+  const MeshPlace facing = tree_->nearest(p, normal, near);
+  return facing.face >= 0 ? facing : tree_->nearest(p, Vec::Zero(), near);
 }
 
 namespace {

@@ -16,6 +16,8 @@ namespace pelage {
 class SurfaceWalk {
  public:
   SurfaceWalk(const Topology& topology, const std::vector<Point>& points);
+  /// Of triangles that need not fit together, for searches alone.
+  SurfaceWalk(const std::vector<Triangle>& triangles, const std::vector<Point>& points);
   ~SurfaceWalk();
 
   /// From a triangle over edges and vertices to ever nearer ones: the place nearest to p among all triangles around
@@ -23,7 +25,8 @@ class SurfaceWalk {
   MeshPlace closest(const Eigen::Vector3d& p, Index from_face) const;
   /// The nearest place on all triangles that do not face away from `normal` (on all triangles when all face away, or
   /// for the normal 0). The first call builds a tree, which takes as long as ten calls of the one below.
-  MeshPlace search(const Eigen::Vector3d& p, const Eigen::Vector3d& normal) const;
+  /// `near`: a triangle from which the search is short, or -1; of equally near places it may find another.
+  MeshPlace search(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, Index near = -1) const;
   /// The same by looking at every triangle; where several are equally near up to rounding it may find another.
   MeshPlace compare_all(const Eigen::Vector3d& p, const Eigen::Vector3d& normal) const;
 

@@ -122,7 +122,7 @@ double mean_of(const TriangleMesh& mesh, const Pixels& image) {
   return sum / count;
 }
 
-/// Levels whose texels are wider than what is between charts.
+/// Around charts lies what the surface has beyond their borders, not the colour of the border.
 TEST(MipLevels, DoNotBleedAcrossSeams) {
   const auto spots = [](const Point& p) { return 0.5 + 0.4 * std::sin(3 * p[0] + 1) * std::cos(3 * p[1] + 2 * p[2]); };
   const Coat coat(torus(1000), remeshed_method, 0.06, spots);
@@ -143,9 +143,7 @@ TEST(MipLevels, DoNotBleedAcrossSeams) {
     ASSERT_EQ(own.width, box.width);
     const double jump = jump_at_seams(shape, own), of_box = jump_at_seams(shape, box);
     RecordProperty("level_" + std::to_string(k + 1), std::to_string(jump) + " " + std::to_string(of_box));
-    if (own.width <= 16) {
-      EXPECT_LT(jump, of_box / 3) << own.width;
-    }
+    EXPECT_LT(jump, of_box / 2) << own.width;
     if (own.width >= 32) {
       EXPECT_NEAR(mean_of(shape, own), mean, 1e-3) << own.width;
     }

@@ -104,6 +104,23 @@ grep -q 'the shape has no uv: it gets an atlas of 1 chart, as pelage unwrap make
 [ "$(grep -c '^f' b.obj)" = 144 ] && grep -qa TEXCOORD_0 b.glb || fail "b.obj and b.glb"
 rm bare.obj
 
+# Onto another mesh of the same shape, with uv or without: its own faces, and a normal map without any height.
+sheet 0.05 0.9 | awk '/^v / { $4 *= 0.9 } { print }' >low.obj
+grep -v '^vt' sheet.obj | sed 's/\/[0-9]*//g' >high.obj
+bakes high.obj --bake 64 --onto low.obj -o l.glb,l.obj --maps l
+[ "$(grep '^v ' l.obj | awk '{ print $1, $2, $3 }' | sort)" = "$(grep '^v ' low.obj | awk '{ print $1, $2, $3 }' | sort)" ] ||
+  fail "l.obj has other points than low.obj"
+[ -s l-normal.png ] && grep -qa normalTexture l.glb && grep -q ' l-normal.png' l.mtl || fail "--onto: no normal map"
+! grep -q 'lie farther' err || fail "low.obj lies near: $(cat err)"
+grep -v '^vt' low.obj | sed 's/\/[0-9]*//g' >lower.obj
+bakes high.obj --bake 256 --onto lower.obj -o l.glb
+grep -q 'it gets an atlas of 1 chart' err || fail "--onto without uv: $(cat err)"
+awk '/^v / && $2 == 1 { $4 += 0.2 } { print }' low.obj >far.obj
+bakes high.obj --bake 64 --onto far.obj -o l.glb
+grep -q '24 triangles of --onto, the first one of face 132, lie farther than' err || fail "far: $(cat err)"
+awk '/^v / { $2 *= 1000; $3 *= 1000; $4 *= 1000 } { print }' low.obj >units.obj
+rm l.glb l.obj l.mtl
+
 # Nothing is grown, and nothing is left, where it cannot be written.
 before=$(ls)
 refused 2 'shows an image on a mesh' sheet.obj --bake 64 -o x.ply
@@ -116,6 +133,18 @@ refused 5 'missing' sheet.obj --maps missing/x
 refused 5 'missing' sheet.obj --bake 64 -o missing/x.glb
 refused 5 'sheet.obj' sheet.obj --maps sheet.obj/x
 refused 2 'goes with --maps' sheet.obj --bake 64 --mips -o x.glb
+refused 2 'give --bake N, or --maps PREFIX, too' high.obj --onto low.obj -o x.glb
+refused 2 'expected a mesh' high.obj --bake 64 --onto builtin:tile -o x.glb
+refused 2 'and the shape is none' builtin:vase --bake 64 --onto low.obj -o x.glb
+refused 2 '--growth moves the coat away' high.obj --growth 0.00001 --bake 64 --onto low.obj -o x.glb
+refused 3 'no mesh of the shape that the coat grows on: its diagonal is 999.5 times' high.obj --bake 64 --onto units.obj -o x.glb
+refused 3 'missing.obj' high.obj --bake 64 --onto missing.obj -o x.glb
+refused 2 'low.obj' high.obj --bake 64 --onto low.obj -o low.obj
+# Images beyond memory, before the coat grows. (Sanitizers need more than is left there.)
+if (ulimit -v 4000000 && "$pelage" --version >out 2>err); then
+  (ulimit -v 4000000 && refused 4 'images of 16384 x 16384 texels need 8.2 GB of memory, which the system does not give; --bake 8192 needs 2.1 GB' \
+    sheet.obj --bake 16384 --maps x --material 'roughness=b' -o x.glb; exit $failures) || failures=$((failures + 1))
+fi
 refused 2 'for surfaces with uv' builtin:sphere?n=300 --solid --size 0.3 --bake 64 -o x.glb
 [ "$(ls)" = "$before" ] || fail "files are left: $(ls)"
 

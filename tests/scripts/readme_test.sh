@@ -10,12 +10,13 @@ work=$2/readme_test
 rm -rf "$work" && mkdir -p "$work" && cd "$work" || exit 1
 failures=0
 
-# The README's cow and scan: any meshes of these names, the cow with some uv.
+# The README's cow, scan and low mesh: any meshes of these names, the cow with some uv.
 "$pelage" grow builtin:animal?n=600 --steps 0 --detail 0 -o bare.obj,scan.ply >log 2>&1 || { cat log; exit 1; }
 awk '/^v / { print; print "vt", $2 / 4 + 0.5, $3 / 4 + 0.5; next }
      /^vn/ { next }
      /^f / { for (i = 2; i <= NF; ++i) { split($i, a, "/"); $i = a[1] "/" a[1] } }
      { print }' bare.obj >cow.obj
+cp bare.obj low.obj
 
 run_line() {
   local -a words quick=()
