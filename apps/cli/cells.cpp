@@ -8,10 +8,10 @@
 
 #include "base/parallel.h"
 #include "command.h"
-#include "io/png_writer.h"
 #include "look/cell_picture.h"
 #include "outputs.h"
 #include "pelage/render.h"
+#include "picture_files.h"
 #include "shape/cell_outlines.h"
 #include "shape/soup_orient.h"
 #include "soup_input.h"
@@ -43,7 +43,7 @@ void report(const CellsCommand& command, const Cells& cells, const PolygonMesh& 
   const double mean = sum / static_cast<double>(area.size());
   const auto six = std::ranges::count(sides, 6.0);
   std::vector<std::string> files = command.outputs;
-  if (!command.picture.empty()) files.push_back(command.picture);
+  if (!command.picture.empty()) files.push_back(first_picture(command.picture, command.view));
   if (command.json)
     return print_json({{"shape", command.shape},
                        {"cells", cells.nodes()},
@@ -69,7 +69,7 @@ void report(const CellsCommand& command, const Cells& cells, const PolygonMesh& 
 
 void run_cells(const CellsCommand& command) {
   for (const std::string& path : command.outputs) check_mesh_path(path);
-  if (!command.picture.empty()) check_picture_path(command.picture);
+  if (!command.picture.empty()) check_picture_files(command.picture, command.view, command.size);
   const ThreadLimit threads(command.threads);
   ShapeFile file = read_for_cells(command.shape, {});
   if (file.nodes)
@@ -82,7 +82,10 @@ void run_cells(const CellsCommand& command) {
   const Cells cells = maker.make(command.count);
   const PolygonMesh outlines = outlines_of(cells);
   save_all(outlines, command.outputs, {});
-  if (!command.picture.empty()) write_png(render(cells_to_see(cells), picture), command.picture);
+  if (!command.picture.empty()) {
+    PictureScene scene(cells_to_see(cells));
+    take_pictures(command.picture, command.view, picture, [&](const PictureOptions& p) { return scene.render(p); });
+  }
   report(command, cells, outlines, maker);
 }
 
@@ -103,12 +106,14 @@ Command add_cells(CLI::App& parent) {
                   "File for the cells as polygons, with their points as the first vertices: .ply, .obj, .vtp, ...; may "
                   "be given several times")
       ->type_name("FILE");
-  app->add_option("--picture", o->picture, "Picture of the cells: .png; blue have fewer than six sides, red more")
+  app->add_option("--picture", o->picture,
+                  "Picture of the cells: .png or .exr; blue have fewer than six sides, red more")
       ->type_name("FILE");
   app->add_option("--picture-size", o->size, "Width and height of the picture in pixels (default: 1200)")
       ->type_name("N")
       ->check(whole_number(64, 16384));
   add_view_options(*app, o->view);
+  add_turntable_option(*app, o->view);
   app->add_option("--threads", o->threads, "Threads to use (default: all cores); the result does not depend on it")
       ->type_name("N")
       ->check(whole_number(1, most_threads));

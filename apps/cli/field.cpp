@@ -16,10 +16,10 @@
 #include "direction/hatching.h"
 #include "input_unit.h"
 #include "interrupt.h"
-#include "io/png_writer.h"
 #include "outputs.h"
 #include "pelage/io.h"
 #include "pelage/render.h"
+#include "picture_files.h"
 #include "progress_bar.h"
 #include "run/directions.h"
 #include "run/program.h"
@@ -111,9 +111,9 @@ TriangleMesh with_field(TriangleMesh mesh, const Connection& c, const DirectionF
 
 void draw(const FieldCommand& o, const TriangleMesh& mesh, UpAxis up, const Connection& c, const DirectionField& field,
           const Progress& progress) {
-  const PictureOptions options = picture_options(o.view, o.size, up, mesh);
-  write_png(render(hatched(mesh, c, field, {o.spacing * box_of(mesh.points).diagonal()}), options, progress),
-            o.picture);
+  PictureScene scene(hatched(mesh, c, field, {o.spacing * box_of(mesh.points).diagonal()}));
+  take_pictures(o.picture, o.view, picture_options(o.view, o.size, up, mesh),
+                [&](const PictureOptions& picture) { return scene.render(picture, progress); });
 }
 
 void report(const FieldCommand& o, const ShapeFile& file, const std::vector<std::string>& warnings,
@@ -121,7 +121,7 @@ void report(const FieldCommand& o, const ShapeFile& file, const std::vector<std:
   const TriangleMesh& mesh = file.mesh;
   const Counts c = count(field);
   std::vector<std::string> files = o.outputs;
-  if (!o.picture.empty()) files.push_back(o.picture);
+  if (!o.picture.empty()) files.push_back(first_picture(o.picture, o.view));
   if (o.json)
     return print_json({{"shape", o.shape},
                        {"n", o.n},
@@ -142,10 +142,7 @@ void report(const FieldCommand& o, const ShapeFile& file, const std::vector<std:
 
 void run_field(const FieldCommand& o) {
   for (const std::string& path : o.outputs) check_mesh_path(path);
-  if (!o.picture.empty()) {
-    check_picture_path(o.picture);
-    check_picture_size(o.size, o.size, o.picture);
-  }
+  if (!o.picture.empty()) check_picture_files(o.picture, o.view, o.size);
   require_one_guide(o);
   catch_interrupts();
   ProgressBar bar(o.quiet || o.json ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
@@ -184,7 +181,8 @@ void add_guide_options(CLI::App* app, FieldCommand& o) {
 }
 
 void add_picture_options(CLI::App* app, FieldCommand& o) {
-  app->add_option("--picture", o.picture, "Draw the field into a .png file")->type_name("FILE");
+  app->add_option("--picture", o.picture, "Draw the field into a file: .png, or .exr in linear light")
+      ->type_name("FILE");
   app->add_option("--picture-size", o.size, "Width and height of the picture in pixels (1024)")
       ->check(whole_number(1, 32768))
       ->type_name("N");
@@ -192,6 +190,7 @@ void add_picture_options(CLI::App* app, FieldCommand& o) {
       ->check(positive_number())
       ->type_name("X");
   add_view_options(*app, o.view);
+  add_turntable_option(*app, o.view);
 }
 
 }  // namespace

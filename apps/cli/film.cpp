@@ -16,6 +16,7 @@
 #include "look/dress.h"
 #include "look/tessellation.h"
 #include "node_outputs.h"
+#include "picture_files.h"
 #include "shape/simplify.h"
 #include "text.h"
 #include "video.h"
@@ -25,14 +26,6 @@ namespace pelage {
 namespace {
 
 constexpr double frames_per_second = 25;
-
-/// "walk.png" -> "walk.0007.png".
-std::string numbered(const std::string& path, int frame) {
-  const std::filesystem::path p(path);
-  std::string number = std::to_string(frame);
-  number.insert(0, number.size() < 4 ? 4 - number.size() : 0, '0');
-  return (p.parent_path() / (p.stem().string() + "." + number + p.extension().string())).string();
-}
 
 /// A run by itself, for the states at any times; linear between steps.
 class States {
@@ -126,7 +119,7 @@ class FrameWriter {
     if (video_)
       video_->add(image);
     else
-      write_png(image, numbered(options_.picture, number));
+      save_picture(image, numbered(options_.picture, number));
   }
 
   void finish() {

@@ -36,6 +36,7 @@ std::vector<GallerySubject> model_subjects(const std::vector<std::string>& names
     recipe.stages[0].model.value = m.name;
     recipe.stages[0].size = {size, {}};
     plan(recipe);
+    recipe.look = shown_look(recipe);
     const bool variant = names_variant(m.name);
     subjects.push_back(
         {m.name, m.source.title, variant ? "" : m.source.summary, variant ? "" : m.source.cite, std::move(recipe)});
@@ -48,6 +49,7 @@ std::vector<GallerySubject> recipe_subjects(const std::vector<std::string>& name
   for (const std::string& name : names.empty() ? recipe_names() : names) {
     Recipe recipe = load_recipe(name);
     plan(recipe);
+    recipe.look = shown_look(recipe);
     subjects.push_back({name, recipe.summary.empty() ? recipe.name : recipe.summary, "", "", std::move(recipe)});
   }
   return subjects;

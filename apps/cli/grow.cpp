@@ -18,6 +18,7 @@
 #include "look/solid_tessellation.h"
 #include "node_outputs.h"
 #include "pelage/io.h"
+#include "picture_files.h"
 #include "soup_input.h"
 #include "space_time.h"
 #include "text.h"
@@ -30,7 +31,7 @@ PictureOptions picture_of(const GrowOptions& options, const Quality& quality, Up
   const bool drawn = options.frames || !options.picture.empty() || !options.panels.empty();
   PictureOptions picture = picture_options(options.view, options.picture_size, up, drawn ? shape : TriangleMesh{});
   picture.samples = quality.picture_samples;
-  return picture;
+  return suited_to(options.picture, picture);
 }
 
 void require_line(const ShapeFile& file) {

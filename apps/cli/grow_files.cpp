@@ -8,6 +8,7 @@
 #include "io/write_mesh.h"
 #include "node_outputs.h"
 #include "panels.h"
+#include "picture_files.h"
 #include "shape/split_corners.h"
 #include "text.h"
 
@@ -52,15 +53,12 @@ Saving save_surface(TriangleMesh coat, const std::string& path, const SaveOption
   return save_mesh(coat, path, form);
 }
 
-void write_picture(const std::string& path, const Progress& progress, GrowReport& report,
-                   const std::function<Image(const Progress&)>& draw) {
-  if (path.empty()) return;
+/// With the progress of drawing that file.
+Image draw_with(const Progress& progress, const std::string& path, const std::function<Image(const Progress&)>& draw) {
   const std::string task = "drawing " + path;
-  const auto drawing = [&] {
+  return interruptible("before " + path + " was written", [&] {
     return draw([&](std::string_view, double fraction) { return progress(task, fraction); });
-  };
-  write_png(interruptible("before " + path + " was written", drawing), path);
-  report.file(path);
+  });
 }
 
 Saving save_with_textures(const Grown& grown, const std::string& path, const SaveOptions& form) {
@@ -93,23 +91,52 @@ void write_files(const GrowOptions& options, const Grown& grown, const ShapeFile
   for (const MapFile& map : save_maps(*grown.textures, options.baked_maps)) report.file(map.path, map.about);
 }
 
+namespace {
+
+/// A picture of it is its nodes as pixels.
+bool shows_nodes(const Grid* grid) { return grid && grid->dimension() < 3 && is_flat(*grid); }
+
+}  // namespace
+
 Image draw_coat(const TriangleMesh& coat, const GrowOptions& options, const ShapeFile& file,
                 const PictureOptions& picture, const Progress& progress) {
   const Grid* grid = as<Grid>(file.nodes);
-  if (grid && grid->dimension() < 3 && is_flat(*grid))
-    return picture_of_nodes(*grid, coat, options.preview, options.picture_size);
+  if (shows_nodes(grid)) return picture_of_nodes(*grid, coat, options.preview, options.picture_size);
   return render(has_corner_normals(coat) ? split_corners(coat) : coat, picture, progress);
 }
 
+namespace {
+
+PictureFile take_coat(const GrowOptions& options, const Grown& grown, const ShapeFile& file,
+                      const PictureOptions& picture, const Progress& progress) {
+  const Grid* grid = as<Grid>(file.nodes);
+  const bool flat = grown.image || shows_nodes(grid);
+  if (flat && options.view.turntable)
+    throw Error(Fault::usage, "--turntable goes around shapes, and a flat grid has no other side; leave it out");
+  std::optional<PictureScene> scene;
+  if (!flat) scene.emplace(has_corner_normals(grown.coat) ? split_corners(grown.coat) : grown.coat);
+  return take_pictures(options.picture, options.view, picture, [&](const PictureOptions& one) {
+    return draw_with(progress, options.picture, [&](const Progress& p) {
+      if (scene) return scene->render(one, p);
+      return grown.image ? picture_of_nodes(*grid, *grown.image, options.preview, options.picture_size)
+                         : picture_of_nodes(*grid, grown.coat, options.preview, options.picture_size);
+    });
+  });
+}
+
+}  // namespace
+
 void write_pictures(const GrowOptions& options, const Recipe& recipe, const Grown& grown, const ShapeFile& file,
                     const PictureOptions& picture, const Progress& progress, GrowReport& report) {
-  write_picture(options.picture, progress, report, [&](const Progress& p) {
-    if (grown.image)
-      return picture_of_nodes(*as<Grid>(file.nodes), *grown.image, options.preview, options.picture_size);
-    return draw_coat(grown.coat, options, file, picture, p);
-  });
-  write_picture(options.panels, progress, report,
-                [&](const Progress& p) { return four_panels(recipe, *grown.shape, grown.coat, picture, p); });
+  if (!options.picture.empty()) {
+    const PictureFile taken = take_coat(options, grown, file, picture, progress);
+    report.file(taken.path, taken.about);
+  }
+  if (options.panels.empty()) return;
+  write_png(draw_with(progress, options.panels,
+                      [&](const Progress& p) { return four_panels(recipe, *grown.shape, grown.coat, picture, p); }),
+            options.panels);
+  report.file(options.panels);
 }
 
 }  // namespace pelage

@@ -24,6 +24,7 @@
 #include "pelage/fair.h"
 #include "pelage/grow.h"
 #include "pelage/io.h"
+#include "picture_files.h"
 #include "recipe/document.h"
 #include "settings.h"
 #include "shape/builtin_grids.h"
@@ -224,7 +225,9 @@ void add_look_options(CLI::App& app, GrowOptions& o) {
   app.add_option("--species", o.species, "Which species is shown (default: the model's last)")
       ->type_name("NAME")
       ->group(group);
-  app.add_option("--ramp", o.ramp, "Colours (default: tawny)" + choices(ramp_names()))->type_name("NAME")->group(group);
+  app.add_option("--ramp", o.ramp, "Colours (default: those of the model)" + choices(ramp_names()))
+      ->type_name("NAME")
+      ->group(group);
   app.add_flag("--invert", o.invert, "Exchange the ends of the ramp")->group(group);
   app.add_option("--material", o.channels,
                  "What the coat is like beside its colour, a formula as in layers of recipes" + channel_choices())
@@ -327,7 +330,8 @@ void add_inside_options(CLI::App& app, GrowOptions& o, const std::string& group)
 }
 
 void add_picture_options(CLI::App& app, GrowOptions& o, const std::string& group) {
-  app.add_option("--picture", o.picture, "File for a picture: .png; of a flat grid its nodes as pixels")
+  app.add_option("--picture", o.picture,
+                 "File for a picture: .png, or .exr in linear light; of a flat grid its nodes as pixels")
       ->type_name("FILE")
       ->group(group);
   app.add_option_function<std::string>(
@@ -372,6 +376,7 @@ void add_picture_options(CLI::App& app, GrowOptions& o, const std::string& group
       ->check(whole_number(1, largest_picture))
       ->group(group);
   add_view_options(app, o.view, group);
+  add_turntable_option(app, o.view, group);
 }
 
 void add_output_options(CLI::App& app, GrowOptions& o) {
@@ -592,6 +597,7 @@ Recipe make_recipe(const GrowOptions& options) {
   apply(options, recipe.stages);
   apply(options, recipe.motion);
   apply(options, recipe.look);
+  recipe.look = shown_look(recipe);
   return recipe;
 }
 
@@ -656,11 +662,16 @@ void check_outputs(const GrowOptions& options, const std::string& shape) {
       check_mesh_path(output);
   }
   if (!options.picture.empty()) {
-    if (is_video(options.picture) && !options.frames)
-      throw Error(Fault::usage, options.picture + ": a video shows the growth; say of how many --frames");
-    if (!is_video(options.picture)) check_picture_path(options.picture);
-    check_picture_size(options.picture_size, options.picture_size, options.picture);
+    if (is_video(options.picture) && !options.frames && !options.view.turntable)
+      throw Error(
+          Fault::usage,
+          options.picture + ": a video shows the growth or goes around; say of how many --frames or --turntable");
+    if (!is_video(options.picture) || options.view.turntable)
+      check_picture_files(options.picture, options.view, options.picture_size);
   }
+  if (options.view.turntable && (options.frames || options.picture.empty()))
+    throw Error(Fault::usage,
+                "--turntable goes around the finished coat in its --picture; give that, without --frames");
   if (!options.plot.empty()) check_picture_path(options.plot);
   check_images(options, shape);
   if (!options.height_map.empty()) {

@@ -11,8 +11,8 @@
 #include "command.h"
 #include "interrupt.h"
 #include "io/output_set.h"
-#include "io/png_writer.h"
 #include "look/ramp.h"
+#include "picture_files.h"
 #include "progress_bar.h"
 #include "settings.h"
 #include "text.h"
@@ -33,13 +33,13 @@ struct RenderCommand {
 
 PictureOptions picture_of(const RenderCommand& o, const Scene& scene, BuiltScene& built) {
   PictureOptions picture = picture_options(o.view, o.size, UpAxis::y, {});
-  const double aspect = scene.camera.aspect;
-  picture.width = std::max(1, static_cast<int>(std::lround(o.size * std::min(1.0, aspect))));
-  picture.height = std::max(1, static_cast<int>(std::lround(o.size / std::max(1.0, aspect))));
+  if (!picture.camera) {
+    set_proportions(picture, o.size, scene.camera.aspect);
+    if (!o.view.lens) picture.angle = scene.camera.angle;
+  }
   picture.azimuth = o.view.azimuth.value_or(o.view.from_front.value_or(scene.camera.azimuth));
   picture.elevation = o.view.elevation.value_or(scene.camera.elevation);
   picture.exposure = scene.exposure + o.view.exposure;
-  picture.angle = scene.camera.angle;
   picture.margin = scene.camera.margin;
   picture.lamp = {scene.lamp.azimuth, scene.lamp.elevation, scene.lamp.size};
   if (scene.background && !o.view.background) try {
@@ -60,7 +60,7 @@ void run_render(const RenderCommand& o) {
   if (o.list) return list_scenes();
   if (o.scene.empty()) throw Error(Fault::usage, "which scene? pelage render --list shows the built-in ones");
   if (o.output.empty()) throw Error(Fault::usage, "give a file for the picture: -o scene.png");
-  check_picture_path(o.output);
+  check_picture_files(o.output, o.view, o.size);
   const Scene scene = load_scene(o.scene);
   catch_interrupts();
   const ThreadLimit threads(o.threads.value_or(0));
@@ -71,12 +71,16 @@ void run_render(const RenderCommand& o) {
   if (o.quality == "draft") picture.samples = 8;
   if (o.quality == "fine") picture.samples = 128;
   const std::size_t triangles = built.mesh.triangles.size();
-  write_png(render(built.mesh, picture,
-                   [&](std::string_view, double fraction) { return progress("drawing " + o.output, fraction); }),
-            o.output);
+  PictureScene stage(std::move(built.mesh));
+  const PictureFile file = take_pictures(o.output, o.view, picture, [&](const PictureOptions& p) {
+    return stage.render(p,
+                        [&](std::string_view, double fraction) { return progress("drawing " + o.output, fraction); });
+  });
   publish_outputs();
   bar.clear();
-  if (!o.quiet) std::printf("wrote     %s (%zu triangles)\n", o.output.c_str(), triangles);
+  if (!o.quiet)
+    std::printf("wrote     %s (%s%zu triangles)\n", file.path.c_str(),
+                file.about.empty() ? "" : (file.about + "; ").c_str(), triangles);
 }
 
 }  // namespace
@@ -89,7 +93,7 @@ Command add_render(CLI::App& parent) {
       "A scene is a text file: shapes in their places, recipes, materials, camera and lamp (docs/scenes.md).");
   app->add_option("SCENE", o->scene, "A built-in scene, or a .toml file")->type_name("");
   app->add_flag("--list", o->list, "Print the built-in scenes");
-  app->add_option("-o,--output", o->output, "File for the picture: .png")->type_name("FILE");
+  app->add_option("-o,--output", o->output, "File for the picture: .png, or .exr in linear light")->type_name("FILE");
   app->add_option("--picture-size", o->size, "The longer side of the picture, pixels (default: 1024)")
       ->type_name("N")
       ->check(whole_number(64, 16384));
@@ -97,6 +101,7 @@ Command add_render(CLI::App& parent) {
       ->type_name("NAME")
       ->check(CLI::IsMember({"draft", "normal", "fine"}));
   add_view_options(*app, o->view);
+  add_turntable_option(*app, o->view);
   app->remove_option(app->get_option("--up"));
   app->add_option("--threads", o->threads, "Threads to use (default: all cores); the result does not depend on it")
       ->type_name("N")
@@ -106,7 +111,8 @@ Command add_render(CLI::App& parent) {
       "Examples:\n"
       "  pelage render --list\n"
       "  pelage render glassware -o glassware.png\n"
-      "  pelage render table.toml --picture-size 2048 -o table.png");
+      "  pelage render table.toml --picture-size 2048 -o table.png\n"
+      "  pelage render glassware --turntable 100 -o glassware.mp4");
   return {app, [o] { run_render(*o); }};
 }
 

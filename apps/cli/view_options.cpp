@@ -1,11 +1,14 @@
 #include "view_options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "base/suggest.h"
 #include "look/ramp.h"
 #include "shape/front.h"
+#include "usage.h"
 
 namespace pelage {
 
@@ -50,6 +53,38 @@ void add_direction_options(CLI::App& app, ViewOptions& o) {
       ->type_name("DEG");
 }
 
+constexpr double shortest_lens = 11, longest_lens = 2000;  // mm: what a picture's angle may be
+
+void add_camera_options(CLI::App& app, ViewOptions& o) {
+  CLI::Option* lens =
+      app.add_option("--focal-length", o.lens,
+                     "Lens of the camera, mm before 35 mm film: 24 wide, 200 far away; what is seen stays as large "
+                     "(default: 78)")
+          ->type_name("MM")
+          ->check(CLI::Range(shortest_lens, longest_lens));
+  CLI::Option* camera = app.add_option("--camera", o.camera,
+                                       "Take the camera of a glTF or GLB file, as Blender writes it: its place, lens "
+                                       "and proportions; the first one in the scene")
+                            ->type_name("FILE");
+  camera->excludes(lens);
+  for (const char* name : {"--view", "--azimuth", "--elevation"}) camera->excludes(app.get_option(name));
+}
+
+/// glTF is in metres and its y axis points up; shapes need not be so.
+Point from_gltf(const Point& p, UpAxis up, double metres_per_unit = 1) {
+  const Point q = up == UpAxis::y ? p : Point{p[0], -p[2], p[1]};
+  return {q[0] / metres_per_unit, q[1] / metres_per_unit, q[2] / metres_per_unit};
+}
+
+void take_camera(const GltfCamera& camera, double metres_per_unit, PictureOptions& picture) {
+  picture.camera = {from_gltf(camera.position, picture.up, metres_per_unit), from_gltf(camera.towards, picture.up),
+                    from_gltf(camera.up, picture.up)};
+  const double aspect = camera.aspect.value_or(static_cast<double>(picture.width) / picture.height);
+  set_proportions(picture, std::max(picture.width, picture.height), aspect);
+  constexpr double radian = std::numbers::pi / 180;
+  picture.angle = 2 / radian * std::atan(std::tan(camera.angle / 2 * radian) * std::max(1.0, aspect));
+}
+
 }  // namespace
 
 void add_view_options(CLI::App& app, ViewOptions& o, const std::string& group) {
@@ -64,6 +99,7 @@ void add_view_options(CLI::App& app, ViewOptions& o, const std::string& group) {
          "(default)")
       ->type_name("NAME");
   add_direction_options(app, o);
+  add_camera_options(app, o);
   app.add_option("--exposure", o.exposure, "Brighter (or, below 0, darker) by so many stops, factors of two")
       ->type_name("STOPS");
   app.add_option_function<std::string>(
@@ -77,6 +113,7 @@ void add_view_options(CLI::App& app, ViewOptions& o, const std::string& group) {
          },
          "Colour of the paper on which the shape stands (default: light grey)")
       ->type_name("#RRGGBB");
+  app.add_flag("--no-ground", o.no_ground, "Let the shape stand before the paper, without a shadow on it");
   app.add_option_function<std::string>(
          "--up",
          [&o](const std::string& name) {
@@ -86,8 +123,25 @@ void add_view_options(CLI::App& app, ViewOptions& o, const std::string& group) {
          "Which axis of the shape points up, y or z, in pictures and in GLB, which is turned for it (default: what the "
          "file says, otherwise y)")
       ->type_name("AXIS");
-  for (const char* name : {"--view", "--azimuth", "--elevation", "--exposure", "--background", "--up"})
+  for (const char* name : {"--view", "--azimuth", "--elevation", "--focal-length", "--camera", "--exposure",
+                           "--background", "--no-ground", "--up"})
     if (!group.empty()) app.get_option(name)->group(group);
+}
+
+void add_turntable_option(CLI::App& app, ViewOptions& o, const std::string& group) {
+  CLI::Option* turntable =
+      app.add_option("--turntable", o.turntable,
+                     "So many pictures around the shape, from where one would be taken: cow.png becomes cow.0001.png "
+                     "and so on, .mp4 and .webm a video (by ffmpeg)")
+          ->type_name("N")
+          ->check(whole_number(2, 100'000))
+          ->excludes(app.get_option("--camera"));
+  if (!group.empty()) turntable->group(group);
+}
+
+void set_proportions(PictureOptions& picture, int longer_side, double aspect) {
+  picture.width = std::max(1, static_cast<int>(std::lround(longer_side * std::min(1.0, aspect))));
+  picture.height = std::max(1, static_cast<int>(std::lround(longer_side / std::max(1.0, aspect))));
 }
 
 PictureOptions picture_options(const ViewOptions& view, int size, UpAxis up, const TriangleMesh& shape) {
@@ -98,6 +152,9 @@ PictureOptions picture_options(const ViewOptions& view, int size, UpAxis up, con
   picture.elevation = view.elevation.value_or(picture.elevation);
   picture.background = view.background.value_or(picture.background);
   picture.exposure = view.exposure;
+  picture.ground = !view.no_ground;
+  if (view.lens) picture.angle = angle_of_lens(*view.lens);
+  if (view.camera) take_camera(read_gltf_camera(*view.camera), shape.metres_per_unit.value_or(1), picture);
   return picture;
 }
 

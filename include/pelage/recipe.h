@@ -131,8 +131,8 @@ inline constexpr int most_detail = 10;
 
 /// How fields become colours and geometry.
 struct Look {
-  std::optional<Given<std::string>> species;  ///< which one is shown; default: the last
-  Given<std::string> ramp{"tawny", {}};
+  std::optional<Given<std::string>> species;       ///< which one is shown; default: the last
+  Given<std::string> ramp;                         ///< "": the way in which the model shows itself, else tawny
   bool invert = false;                             ///< exchange the ends of the ramp
   std::vector<Layer> layers;                       ///< painted over it, the first one lowest
   std::map<Channel, Given<std::string>> channels;  ///< formulas that know what those of layers know; lengths in sizes

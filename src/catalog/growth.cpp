@@ -53,12 +53,11 @@ TriangleMesh grow(const TriangleMesh& shape, const Recipe& recipe, const Progres
 
 Growth::Growth(TriangleMesh shape, const Recipe& recipe, const Progress& progress)
     : parts_(std::make_unique<Parts>(
-          Parts{Run(make_program(recipe, std::move(shape)), progress), recipe.look, progress})) {}
+          Parts{Run(make_program(recipe, std::move(shape)), progress), shown_look(recipe), progress})) {}
 
 Growth::Growth(Grid grid, const Recipe& recipe, const Progress& progress)
-    : parts_(
-          std::make_unique<Parts>(Parts{Run(make_program(recipe, std::move(grid)), progress), recipe.look, progress})) {
-}
+    : parts_(std::make_unique<Parts>(
+          Parts{Run(make_program(recipe, std::move(grid)), progress), shown_look(recipe), progress})) {}
 
 Growth::~Growth() = default;
 Growth::Growth(Growth&&) noexcept = default;

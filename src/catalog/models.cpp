@@ -7,6 +7,7 @@
 #include "catalog/embedded.h"
 #include "pelage/grow.h"
 #include "recipe/document.h"
+#include "recipe/read_recipe.h"
 
 namespace pelage {
 
@@ -116,6 +117,11 @@ void for_entries(const Value& document, const std::string& key, Fill&& fill) {
     for (const auto& [name, value] : table->entries()) fill(name, *value);
 }
 
+Look look_of(const Value& document) {
+  const Value* look = document.find("look");
+  return look ? read_look(*look) : Look{};
+}
+
 ModelSource model(const Value& document) {
   if (!document.find("species") && document.find("stage"))
     throw Error(Fault::usage, "this is a recipe, not a model; give it as --recipe", {document.where().file});
@@ -136,6 +142,7 @@ ModelSource model(const Value& document) {
   });
   for_entries(document, "species", [&](auto& name, auto& value) { result.species.push_back(species(name, value)); });
   for_entries(document, "variants", [&](auto& name, auto& value) { result.variants.push_back(variant(name, value)); });
+  look_of(document);
   document.require_all_read();
   return result;
 }
@@ -195,6 +202,18 @@ ModelSource find_model(const std::string& name_or_path, const ModelTexts& texts)
   if (found == texts.end()) return load_model(name_or_path);
   const ModelSource source = parse_model(found->second, found->first);
   return colon == std::string::npos ? source : with_variant(source, name_or_path.substr(colon + 1));
+}
+
+Look model_look(const std::string& name_or_path, const ModelTexts& texts) {
+  const std::size_t extension = name_or_path.rfind(".toml");
+  const std::string name = extension == std::string::npos ? name_or_path.substr(0, name_or_path.find(':'))
+                                                          : name_or_path.substr(0, extension + 5);
+  if (const auto text = texts.find(name); text != texts.end()) return look_of(parse_document(text->second, name));
+  if (const EmbeddedFile* file = find_embedded("models", name))
+    return look_of(parse_document(file->text, std::string(file->path)));
+  if (extension != std::string::npos) return look_of(read_document(name));
+  load_built_in(name);  // says what is wrong with it
+  return {};
 }
 
 }  // namespace pelage

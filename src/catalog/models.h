@@ -26,6 +26,9 @@ ModelSource load_model(const std::string& name_or_path);
 /// The same, but first among the texts, whose faults are located under their names.
 ModelSource find_model(const std::string& name_or_path, const ModelTexts& texts);
 
+/// How the model shows itself, the same for its variants: [look] of the file, as in recipes. Errors likewise.
+Look model_look(const std::string& name_or_path, const ModelTexts& texts);
+
 /// The source that a text describes; `file` is the name for messages.
 ModelSource parse_model(std::string_view text, const std::string& file);
 

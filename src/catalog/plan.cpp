@@ -292,6 +292,17 @@ bool asks_for_lattice(const std::vector<Stage>& stages, const Components& compon
 
 }  // namespace
 
+Look shown_look(const Recipe& recipe) {
+  Look look = recipe.look;
+  if (!look.ramp.value.empty() || !look.layers.empty()) return look;
+  const Given<std::string>& model = recipe.stages.back().model;
+  const Look own = model_look(model.value, recipe.models);
+  look.ramp = own.ramp;
+  look.invert ^= own.invert;
+  if (!look.species) look.layers = own.layers;
+  return look;
+}
+
 Plan plan(const Recipe& recipe, const Components& components) {
   require_stage_names(recipe.stages);
   Plan p;
@@ -308,7 +319,7 @@ Plan plan(const Recipe& recipe, const Components& components) {
     p.interpolate |= stage.interpolate;
   }
   require_texture_names(recipe.textures, p.stages.back().model);
-  p.paint = resolve_paint(recipe.look, shown_fields(p.stages));
+  p.paint = resolve_paint(shown_look(recipe), shown_fields(p.stages));
   require_fields(p.paint.symbols(), p.paint.species);
   plan_motion(recipe.motion, p);
   return p;

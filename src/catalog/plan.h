@@ -43,6 +43,10 @@ struct Plan {
   Paint paint;
 };
 
+/// The recipe's look; where it says neither ramp nor layers, with those by which the model of the last stage shows
+/// itself (its layers unless a species was chosen). Errors of load_model.
+Look shown_look(const Recipe& recipe);
+
 /// Error(Fault::usage), located in the recipe, for anything unknown, contradictory or misspelt.
 Plan plan(const Recipe& recipe, const Components& components = {});
 

@@ -67,6 +67,9 @@ tolerance = 2e-4                           # at rest when it changes by less tha
 # resolution = 6                           # vertices per wavelength at least, from 6 to 64; more for sharp fronts
 # iterations = 3000                        # of the solver until the end: tells how long it will take
 
+[look]
+ramp = "tawny"                             # colours of the last species; or layers, as in recipes
+
 # Other values under a name: --model FILE.toml:stripes. A variant may have title, parameters, wavelength, period, suggested.
 [variants.stripes]
 title = "Stripes"

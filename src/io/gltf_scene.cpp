@@ -119,7 +119,7 @@ std::vector<std::size_t> GltfScene::roots(std::vector<Finding>& findings) const 
   return document_.indices(document_.get("scenes", scene), "nodes");
 }
 
-std::vector<std::size_t> GltfScene::shown(std::vector<Finding>& findings) const {
+std::vector<std::size_t> GltfScene::shown(std::vector<Finding>& findings, const char* what) const {
   std::vector<std::size_t> result, stack = roots(findings);
   std::reverse(stack.begin(), stack.end());
   std::vector<char> seen(children_.size(), 0);
@@ -135,7 +135,7 @@ std::vector<std::size_t> GltfScene::shown(std::vector<Finding>& findings) const 
       if (hidden.count++ == 0) hidden.element = n;
       continue;
     }
-    if (document_.find(node, "mesh")) result.push_back(n);
+    if (document_.find(node, what)) result.push_back(n);
     stack.insert(stack.end(), children_[n].rbegin(), children_[n].rend());
   }
   if (hidden.count > 0) {

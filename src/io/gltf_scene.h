@@ -33,9 +33,9 @@ class GltfScene {
   /// Error(Fault::input) unless the nodes form trees.
   explicit GltfScene(const GltfDocument& document);
 
-  /// The nodes with a mesh in the order in which viewers pass through them: those of the default scene, without scenes
-  /// all. Hidden ones (KHR_node_visibility) are left out. Appends what is not shown.
-  std::vector<std::size_t> shown(std::vector<Finding>& findings) const;
+  /// The nodes with a mesh (or a "camera") in the order in which viewers pass through them: those of the default scene,
+  /// without scenes all. Hidden ones (KHR_node_visibility) are left out. Appends what is not shown.
+  std::vector<std::size_t> shown(std::vector<Finding>& findings, const char* what = "mesh") const;
   const GltfMatrix& world(std::size_t node) const { return world_[node]; }
 
  private:

@@ -147,9 +147,11 @@ std::vector<Symbol> Paint::symbols() const {
 }
 
 Paint resolve_paint(const Look& look, std::vector<std::string> species) {
-  if (std::ranges::count(ramp_names(), look.ramp.value) == 0)
-    throw Error(Fault::usage, unknown_name("ramp", look.ramp.value, ramp_names()), look.ramp.where);
-  Paint paint{std::move(species), 0, RampTable(named_ramp(look.ramp.value)), look.invert, look.fields, {}};
+  const std::string& ramp = look.ramp.value;
+  if (!ramp.empty() && std::ranges::count(ramp_names(), ramp) == 0)
+    throw Error(Fault::usage, unknown_name("ramp", ramp, ramp_names()), look.ramp.where);
+  Paint paint{std::move(species), 0,           RampTable(named_ramp(ramp.empty() ? "tawny" : ramp)),
+              look.invert,        look.fields, {}};
   for (const Layer& layer : look.layers) paint.layers.push_back(resolve_layer(layer, paint.species));
   for (const auto& [channel, text] : look.channels)
     paint.channels.emplace(channel, ChannelFormula{layer_formula(text, paint.species), text.where});

@@ -230,6 +230,8 @@ Layer read_layer(const Value& table) {
   return layer;
 }
 
+}  // namespace
+
 Look read_look(const Value& table) {
   Look look;
   if (const Value* v = table.find("species")) look.species = given(*v);
@@ -245,8 +247,6 @@ Look read_look(const Value& table) {
   if (const Value* v = table.find("detail")) look.detail = static_cast<int>(whole_number(*v, 0, most_detail));
   return look;
 }
-
-}  // namespace
 
 Length parse_length(const std::string& text, const Location& where) {
   double number = 0;

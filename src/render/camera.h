@@ -24,4 +24,13 @@ struct Camera {
 Camera frame_points(const std::vector<Eigen::Vector3f>& points, double azimuth_degrees, double elevation_degrees,
                     double aspect, double margin, double angle_degrees = 26);
 
+/// Points that reach from everywhere around the upright axis through the middle of the given ones as far as those do
+/// when they are turned around it: framed instead of them, they show the whole turn. The same for each azimuth, turned.
+std::vector<Eigen::Vector3f> swept_around(const std::vector<Eigen::Vector3f>& points, double azimuth_degrees);
+
+/// The camera at `position` that looks towards `towards`, with `up` upwards in the picture; both of any length, and not
+/// parallel.
+Camera placed_camera(const Eigen::Vector3f& position, const Eigen::Vector3f& towards, const Eigen::Vector3f& up,
+                     double aspect, double angle_degrees);
+
 }  // namespace pelage

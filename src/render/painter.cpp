@@ -42,11 +42,13 @@ std::vector<Vector2f> view_offsets(std::uint32_t count) {
   return offsets;
 }
 
+constexpr float nearest = 0.1F;  // a camera inside the object is taken to be so far from what it sees, object sizes
+
 constexpr std::uint32_t dither_side = 64;
 
 /// Noise of half a step of 8-bit sRGB at light grey, or the even backdrop would show bands.
-std::vector<float> dither_factors() {
-  constexpr float step = 0.01F;  // relative, in linear light
+std::vector<float> dither_factors(bool wanted) {
+  const float step = wanted ? 0.01F : 0;  // relative, in linear light
   std::vector<float> factors;
   for (std::uint32_t i = 0; i < dither_side * dither_side; ++i) {
     const std::uint32_t number = z_order(i % dither_side, i / dither_side);
@@ -136,23 +138,23 @@ struct Painter::View {
   }
 };
 
-Painter::Painter(const RayScene& scene, const std::vector<Vector3f>& points, const std::vector<Vector3f>& framed,
+Painter::Painter(const RayScene& scene, const std::vector<Vector3f>& points, const Camera& camera,
                  const std::vector<Triangle>& triangles, const PictureOptions& options, Rays rays)
     : scene_(scene),
       width_(options.width),
       height_(options.height),
       rays_(rays),
-      camera_(frame_points(framed, options.azimuth, options.elevation,
-                           static_cast<double>(options.width) / options.height, options.margin, options.angle)),
+      camera_(camera),
+      ground_(options.ground),
       studio_(camera_.back, Eigen::Map<const Eigen::Vector3d>(options.background.data()).cast<float>(), options.lamp),
-      pixel_size_(2 * camera_.tan_x / static_cast<float>(width_) * camera_.position.norm()),
+      pixel_size_(2 * camera_.tan_x / static_cast<float>(width_) * std::max(nearest, camera_.position.norm())),
       tracer_(scene, studio_, pixel_size_),
       samples_(studio_),
       paths_(scene, studio_),
       floor_key_(studio_.key() * studio_.key_cosine(Vector3f::UnitY())),
       floor_light_(floor_key_ + studio_.floor_irradiance()),
       offsets_(view_offsets(rays.view)),
-      dither_(dither_factors()),
+      dither_(dither_factors(options.dither)),
       columns_((options.width + tile - 1) / tile) {
   find_busy(points, triangles);
 }
@@ -475,7 +477,8 @@ void Painter::trace_block(Band& band, int left, int top, int right, int bottom) 
             {band.index(x, y), z_order(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)), std::move(ways)});
   if (pixels.empty()) return;
   const float wanted = rays_.levels > 0 ? path_noise : path_noise / 20;
-  const float tolerance = wanted * wanted * usual_rays / static_cast<float>(rays_.view);
+  const float fewer = usual_rays / static_cast<float>(rays_.view),
+              tolerance = wanted * wanted * std::min(fewer, fewer * fewer);
   std::vector<PathSum> sums(pixels.size());
   std::uint32_t done = 0;
   for (std::uint32_t round = 0, next = std::min(first_paths, rays_.view); done < rays_.view; ++round, next = done) {
@@ -510,7 +513,7 @@ Vector3f Painter::paper_color(const Band& band, int x, int y) const {
 /// Where a view ray that misses the object meets the floor, if that is so near that the object can change its light.
 bool Painter::reaches_floor(const Vector3f& direction, Vector3f& floor) const {
   constexpr float far_away = 4;  // object sizes: no shadow reaches there
-  if (direction.y() >= 0 || camera_.position.y() <= 0) return false;
+  if (!ground_ || direction.y() >= 0 || camera_.position.y() <= 0) return false;
   floor = camera_.position - direction * (camera_.position.y() / direction.y());
   return floor.norm() <= far_away;
 }

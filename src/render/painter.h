@@ -58,8 +58,8 @@ struct Rays {
 /// for squares of their own.
 class Painter {
  public:
-  /// The object of `scene` has the corners `points`, and the camera sees `framed`; the scene must outlive the painter.
-  Painter(const RayScene& scene, const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& framed,
+  /// The object of `scene` has the corners `points`; the scene must outlive the painter.
+  Painter(const RayScene& scene, const std::vector<Eigen::Vector3f>& points, const Camera& camera,
           const std::vector<Triangle>& triangles, const PictureOptions& options, Rays rays);
 
   /// Pictures are traced in squares of so many pixels.
@@ -122,6 +122,7 @@ class Painter {
   int width_, height_;
   Rays rays_;
   Camera camera_;
+  bool ground_;
   Studio studio_;
   float pixel_size_;  ///< at the object
   LightTracer tracer_;

@@ -76,8 +76,20 @@ struct StandingMesh {
         scene(mesh, points, upright_rotation(up).cast<float>(), report, static_cast<float>(1 / box.diagonal().norm())) {
   }
 
-  std::vector<Vector3f> framed(const PictureOptions& options) const {
-    return options.framed.empty() ? points : stand_upright(options.framed, upright_rotation(up), box);
+  Camera camera(const PictureOptions& o) const {
+    const double aspect = static_cast<double>(o.width) / o.height;
+    const Eigen::Matrix3d rotation = upright_rotation(up);
+    if (!o.camera) {
+      const std::vector<Vector3f> framed = stand_upright(o.framed, rotation, box);
+      const std::vector<Vector3f>& seen = framed.empty() ? points : framed;
+      return frame_points(o.steady ? swept_around(seen, o.azimuth) : seen, o.azimuth, o.elevation, aspect, o.margin,
+                          o.angle);
+    }
+    const auto direction = [&](const Point& d) -> Vector3f {
+      return (rotation * Eigen::Map<const Eigen::Vector3d>(d.data())).normalized().cast<float>();
+    };
+    return placed_camera(stand_upright({o.camera->position}, rotation, box).front(), direction(o.camera->towards),
+                         direction(o.camera->up), aspect, o.angle);
   }
 
   UpAxis up;
@@ -85,6 +97,15 @@ struct StandingMesh {
   std::vector<Vector3f> points;
   RayScene scene;
 };
+
+void check(const PictureCamera& camera) {
+  const Eigen::Map<const Eigen::Vector3d> towards(camera.towards.data()), up(camera.up.data());
+  constexpr double least = 1e-6;  // sine of the angle between them
+  const double lengths = towards.norm() * up.norm();
+  if (!(towards.cross(up).norm() > least * lengths) || !std::isfinite(lengths) ||
+      !Eigen::Map<const Eigen::Vector3d>(camera.position.data()).allFinite())
+    throw Error(Fault::usage, "the camera's place must be finite, and what is up for it not where it looks");
+}
 
 void check(const PictureOptions& options) {
   constexpr int largest = 32768;  // z_order has 16 bits per axis
@@ -101,6 +122,7 @@ void check(const PictureOptions& options) {
   if (!inside(options.angle, 1, 120) || !inside(options.margin, -0.45, 0.45))
     throw Error(Fault::usage,
                 "the camera's angle must lie between 1 and 120 degrees, its margin between -0.45 and 0.45");
+  if (options.camera) check(*options.camera);
   if (!inside(options.lamp.elevation, 10, 90) || !inside(options.lamp.size, 0.02, 1))
     throw Error(Fault::usage, "the lamp's elevation must lie between 10 and 90 degrees, its size between 0.02 and 1");
 }
@@ -120,11 +142,11 @@ struct Part {
 };
 
 /// With many rays there is less noise to be smoothed, and with very many none; very few are spared places instead.
-Rays rays_of(int samples) {
+Rays rays_of(int samples, bool denoise) {
   const auto count = static_cast<std::uint32_t>(samples);
   Rays rays{std::max(1U, count / 2), std::max(1U, count / 8), 1, 0};
   constexpr std::uint32_t enough = 64, few = 2;
-  if (rays.light >= enough) return rays;
+  if (rays.light >= enough || !denoise) return rays;
   if (rays.light < few) return {rays.view, 4 * rays.light, 4, 3};
   rays.cell = 2;
   rays.levels = 1;
@@ -135,9 +157,9 @@ Rays rays_of(int samples) {
 class Picture {
  public:
   Picture(const StandingMesh& model, const TriangleMesh& mesh, const PictureOptions& options)
-      : rays_(rays_of(options.samples)),
+      : rays_(rays_of(options.samples, options.denoise)),
         plain_(model.scene.plain()),
-        painter_(model.scene, model.points, model.framed(options), mesh.triangles, options, rays_),
+        painter_(model.scene, model.points, model.camera(options), mesh.triangles, options, rays_),
         exposure_(static_cast<float>(std::exp2(options.exposure))),
         image_{options.width, options.height, std::vector<float>(std::size_t{3} * options.width * options.height)} {}
 

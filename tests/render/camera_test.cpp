@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/random.h"
+#include "pelage/render.h"
 
 namespace pelage {
 namespace {
@@ -56,6 +57,34 @@ TEST(Camera, AzimuthAndElevation) {
   EXPECT_LT((front.back - Vector3f::UnitZ()).norm(), 1e-6F);
   EXPECT_LT((right.back - Vector3f::UnitX()).norm(), 1e-6F);
   EXPECT_LT((front.up - Vector3f::UnitY()).norm(), 1e-6F);
+}
+
+TEST(Camera, PlacedWhereAFramingOneStandsItIsTheSame) {
+  const Camera framing = frame_points(cloud(1, 2, 3), 35, 14, 0.7, 0.05, 40);
+  const Camera placed = placed_camera(framing.position, -3 * framing.back, {0, 2, 0}, 0.7, 40);
+  EXPECT_LT((placed.right - framing.right).norm(), 1e-5F);
+  EXPECT_LT((placed.up - framing.up).norm(), 1e-5F);
+  EXPECT_FLOAT_EQ(placed.tan_x, framing.tan_x);
+  EXPECT_FLOAT_EQ(placed.tan_y, framing.tan_y);
+}
+
+TEST(Camera, LensesOf35MillimetreFilm) {
+  EXPECT_NEAR(angle_of_lens(18), 90, 1e-9);       // half of 36 mm over 18 mm is 1
+  EXPECT_NEAR(angle_of_lens(50), 39.5978, 1e-4);  // as lens tables have it
+  EXPECT_NEAR(angle_of_lens(78), PictureOptions().angle, 0.05);
+}
+
+TEST(Camera, ATurntableShowsAllAndKeepsSizeAndPlace) {
+  const std::vector<Vector3f> points = cloud(4, 1, 2);
+  const Camera first = frame_points(swept_around(points, 0), 0, 14, 1, 0.05);
+  for (const double azimuth : {33.0, 90.0, 222.5}) {
+    const Camera camera = frame_points(swept_around(points, azimuth), azimuth, 14, 1, 0.05);
+    for (const Vector3f& p : points) EXPECT_LT(camera.project(p).cwiseAbs().maxCoeff(), 0.9F + 1e-3F);
+    const Vector3f middle(5, 0, 0);  // of the cloud, about: it stays where it is, as far away
+    EXPECT_NEAR(camera.project(middle).x(), first.project(middle).x(), 0.02F);
+    EXPECT_NEAR((camera.position - middle).norm(), (first.position - middle).norm(), 0.05F);
+    EXPECT_NEAR(camera.position.y(), first.position.y(), 1e-4F);
+  }
 }
 
 }  // namespace

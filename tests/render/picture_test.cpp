@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <numbers>
 
 #include "base/parallel.h"
+#include "base/srgb.h"
 #include "pelage/error.h"
 #include "pelage/render.h"
 #include "shape/generators.h"
@@ -272,6 +276,154 @@ TEST(Picture, PlainBackdropIsTheStudios) {
     const double fall = 0.16 * (px * px + py * py) + 0.05 * py;
     EXPECT_NEAR(static_cast<double>(image.rgb[static_cast<std::size_t>(3 * x)]), 0.8 * (1 - fall), 0.006 * 0.8);
   }
+}
+
+/// Balls whose noise docs/pictures.md tells.
+std::vector<std::pair<const char*, TriangleMesh>> noisy_balls() {
+  return {{"matt", ball(0.8, 0.6, 0.4)},
+          {"gold", finished_ball({{"material_roughness", 0.25}, {"material_metalness", 1}})},
+          {"glass",
+           finished_ball({{"material_roughness", 0.02}, {"material_transmission", 1}, {"material_thickness", 2}})}};
+}
+
+PictureOptions noisy_picture(int size, int samples, bool denoise) {
+  PictureOptions options;
+  options.width = options.height = size;
+  options.samples = samples, options.denoise = denoise, options.dither = false;
+  return options;
+}
+
+/// How far a picture is from a converged one of the same size: the root mean square over the ball's middle and its
+/// foot, all channels, in steps of 8-bit sRGB.
+double noise(PictureScene& scene, const Image& exact, int samples, bool denoise) {
+  const Image image = scene.render(noisy_picture(exact.width, samples, denoise));
+  const auto step = [](float c) { return 255 * srgb_from_linear(std::clamp(static_cast<double>(c), 0.0, 1.0)); };
+  double squares = 0;
+  int count = 0;
+  for (int y = 3 * image.height / 10; y < 9 * image.height / 10; ++y)
+    for (int x = 3 * image.width / 10; x < 7 * image.width / 10; ++x)
+      for (int k = 0; k < 3; ++k, ++count) {
+        const auto i = static_cast<std::size_t>(3 * (y * image.width + x) + k);
+        squares += std::pow(step(image.rgb[i]) - step(exact.rgb[i]), 2);
+      }
+  return std::sqrt(squares / count);
+}
+
+TEST(Noise, FallsWithTheRootOfTheSamplesAndIsWhatTheManualSays) {
+  for (const auto& [name, mesh] : noisy_balls()) {
+    PictureScene scene(mesh);
+    const Image exact = scene.render(noisy_picture(64, 1024, false));
+    const double few = noise(scene, exact, 8, false), many = noise(scene, exact, 128, false);
+    EXPECT_GT(few, 0) << name;
+    EXPECT_LT(many, few / 4 * 1.15) << name;  // sixteen times the samples
+    EXPECT_LT(noise(scene, exact, PictureOptions().samples, true), 4) << name;
+  }
+}
+
+/// Not a test: prints the table of docs/pictures.md.
+TEST(Noise, DISABLED_Table) {
+  for (const auto& [name, mesh] : noisy_balls()) {
+    PictureScene scene(mesh);
+    const Image exact = scene.render(noisy_picture(96, 2048, false));
+    for (const int samples : {4, 8, 16, 32, 64, 128})
+      std::printf("%s | %d | %.2f | %.2f\n", name, samples, noise(scene, exact, samples, false),
+                  noise(scene, exact, samples, true));
+  }
+}
+
+/// The width of what is red, pixels.
+int red_width(const Image& image) {
+  int left = image.width, right = -1;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const float* c = &image.rgb[static_cast<std::size_t>(3 * (y * image.width + x))];
+      if (c[0] < 2 * c[1]) continue;
+      left = std::min(left, x), right = std::max(right, x);
+    }
+  return right - left + 1;
+}
+
+TEST(Picture, ABallIsAsWideAsTheLensSays) {
+  for (const double millimetres : {20.0, 50.0, 135.0}) {
+    PictureOptions options = small();
+    options.width = 240, options.height = 160, options.samples = 4, options.ground = false;
+    options.angle = angle_of_lens(millimetres);
+    const double distance = millimetres / 8;  // from the middle; the outline lies on the cone that touches the ball
+    options.camera = {{0, 0, distance}, {0, 0, -1}, {0, 1, 0}};
+    const double outline = std::tan(std::asin(1 / distance));  // on the film, over the focal length
+    EXPECT_NEAR(red_width(render(ball(1, 0, 0), options)), 2 * outline * millimetres / 36 * options.width, 3)
+        << millimetres;
+  }
+}
+
+TEST(Picture, CornersAreWhereAPlacedCameraProjectsThem) {
+  // Small balls at the corners of a box, one red, seen by a camera that leans.
+  const auto scene = [](std::size_t red) {
+    TriangleMesh all;
+    std::vector<double> colors;
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      const TriangleMesh one = builtin_shape("builtin:sphere?n=162");
+      const auto base = static_cast<std::int32_t>(all.points.size());
+      for (const Point& p : one.points) {
+        all.points.push_back({0.05 * p[0] + (corner & 1 ? 2 : -2), 0.05 * p[1] + (corner & 2 ? 1 : -1),
+                              0.05 * p[2] + (corner & 4 ? 1.5 : -1.5)});
+        for (const double c : {1.0, corner == red ? 0.0 : 1.0, corner == red ? 0.0 : 1.0}) colors.push_back(c);
+      }
+      for (const Triangle& t : one.triangles) all.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
+    }
+    all.attributes = {{"color", 3, Domain::vertex, colors}};
+    return all;
+  };
+  PictureOptions options = small();
+  options.width = 300, options.height = 200, options.ground = false, options.angle = 70;
+  const Eigen::Vector3d position(3, 2, 5), towards = Eigen::Vector3d(-0.2, -0.1, 0.1) - position, up(0.3, 1, 0);
+  options.camera = {{3, 2, 5}, {towards[0], towards[1], towards[2]}, {up[0], up[1], up[2]}};
+  const Eigen::Vector3d back = -towards.normalized(), right = up.cross(back).normalized(), above = back.cross(right);
+  const double scale = options.width / (2 * std::tan(35 * std::numbers::pi / 180));  // pixels
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    const Image image = render(scene(corner), options);
+    double x = 0, y = 0, count = 0;
+    for (int j = 0; j < image.height; ++j)
+      for (int i = 0; i < image.width; ++i) {
+        const float* c = &image.rgb[static_cast<std::size_t>(3 * (j * image.width + i))];
+        if (c[0] > 2 * c[1]) x += i + 0.5, y += j + 0.5, ++count;
+      }
+    const Eigen::Vector3d p(corner & 1 ? 2 : -2, corner & 2 ? 1 : -1, corner & 4 ? 1.5 : -1.5);
+    const double depth = (position - p).dot(back);
+    ASSERT_GT(count, 3) << corner;
+    EXPECT_NEAR(x / count, options.width / 2.0 + scale * (p - position).dot(right) / depth, 1) << corner;
+    EXPECT_NEAR(y / count, options.height / 2.0 - scale * (p - position).dot(above) / depth, 1) << corner;
+  }
+}
+
+TEST(Picture, AFullTurnIsTheStart) {
+  TriangleMesh mesh = builtin_shape("builtin:cube?n=200");
+  PictureOptions options = small();
+  options.steady = true;
+  const Image start = render(mesh, options);
+  options.azimuth += 360;
+  const Image turned = render(mesh, options);
+  double worst = 0;
+  for (std::size_t i = 0; i < start.rgb.size(); ++i)
+    worst = std::max<double>(worst, std::abs(start.rgb[i] - turned.rgb[i]));
+  EXPECT_LT(worst, 0.05);  // rounding of the angle moves edges by millionths of a pixel
+  options.azimuth -= 270;
+  EXPECT_LT(std::abs(mean(render(mesh, options), 30, 30, 40, 1) - mean(start, 30, 30, 40, 1)), 0.01);  // a cube
+}
+
+TEST(Picture, WithoutGroundThereIsNoShadow) {
+  PictureOptions options = small();
+  options.dither = false;
+  const auto darkest = [&] {
+    const Image image = render(ball(0.5, 0.5, 0.5), options);
+    float least = 1;
+    for (int x = 0; x < image.width; ++x)
+      least = std::min(least, image.rgb[static_cast<std::size_t>(3 * ((image.height - 2) * image.width + x))]);
+    return least;
+  };
+  const float shaded = darkest();
+  options.ground = false;
+  EXPECT_GT(darkest(), 1.1F * shaded);
 }
 
 TEST(Picture, RefusesWhatMakesNoPicture) {
