@@ -41,6 +41,8 @@ TEST(SurfaceWalk, FindsWhatComparingAllTrianglesFinds) {
       const Eigen::Vector3d p = surface.point({face, 0.3, 0.3}) + 0.02 * vec(near.points[i]);
       const double truth = brute_distance(mesh, {p.x(), p.y(), p.z()});
       const MeshPlace walked = surface.closest(p, face), found = surface.search(p, Eigen::Vector3d::Zero());
+      const auto somewhere = static_cast<Index>(i * 31 % mesh.triangles.size());
+      EXPECT_NEAR((surface.point(surface.search(p, Eigen::Vector3d::Zero(), somewhere)) - p).norm(), truth, 1e-12);
       expect_inside(walked);
       EXPECT_NEAR((surface.point(walked) - p).norm(), truth, 1e-12);
       EXPECT_NEAR((surface.point(found) - p).norm(), truth, 1e-12);
