@@ -97,7 +97,8 @@ Command add_render(CLI::App& parent) {
   app->add_option("--picture-size", o->size, "The longer side of the picture, pixels (default: 1024)")
       ->type_name("N")
       ->check(whole_number(64, 16384));
-  app->add_option("--quality", o->quality, "How accurate coats and picture are: draft, normal or fine")
+  app->add_option("--quality", o->quality,
+                  "How accurate coats and picture are: draft, normal (noise below 4 steps of 255) or fine")
       ->type_name("NAME")
       ->check(CLI::IsMember({"draft", "normal", "fine"}));
   add_view_options(*app, o->view);

@@ -21,8 +21,8 @@ namespace {
 enum Use : std::uint32_t { use_pixel = 1, use_dither = 5 };
 
 /// Paths are followed until the standard error of the pixels of a block, before it is smoothed, is this part of what
-/// they show, or of `darkest` where they show less: for so many view rays, and less with more of them. A twentieth of
-/// it where nothing is smoothed.
+/// they show, or of `darkest` where they show less: for so many view rays, with more of them as much less. A twentieth
+/// of it where nothing is smoothed.
 constexpr float path_noise = 0.4F, usual_rays = 16, darkest = 0.05F;
 constexpr std::uint32_t first_paths = 4;  // of a pixel at least; at most as many as view rays
 

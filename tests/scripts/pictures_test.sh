@@ -64,5 +64,81 @@ grep -qa material_height flat.ply || fail "flat.ply has no heights"
 refused 'needs a height' "${ball[@]}" --displace -o a.ply
 refused 'stay where they are' grow 'builtin:tile?n=16' --model turing --size 8px --material height=b --displace -o a.ply
 
+# All around: picture k of n is the one from an angle, whatever n is; and a file holds what another does.
+draws "${ball[@]}" --picture two.png --turntable 2
+draws "${ball[@]}" --picture four.png --turntable 4
+same two.0001.png four.0001.png
+same two.0002.png four.0003.png
+differ two.0001.png two.0002.png
+[ ! -e two.png ] || fail "two.png: a turntable wrote a picture of its own name"
+refused 'give --turntable' cells builtin:animal -n 200 --picture a.mp4
+refused 'without --frames' "${ball[@]}" --picture a.png --turntable 4 --frames 3
+refused 'no other side' grow 'builtin:tile?n=16' --model turing --size 8px --steps 1 --picture a.png --turntable 2
+refused '--camera' "${ball[@]}" --picture a.png --camera x.glb --azimuth 3
+refused 'Value 5 not in range\|--focal-length' "${ball[@]}" --picture a.png --focal-length 5
+draws "${ball[@]}" --picture lens.png --focal-length 24
+draws "${ball[@]}" --picture air.png --no-ground
+differ plain.png lens.png
+differ plain.png air.png
+draws "${field[@]}" --picture around.png --turntable 2
+[ -s around.0002.png ] || fail "no around.0002.png"
+
+# A camera of a glTF file: its proportions, and the same place whatever axis points up.
+cat >camera.gltf <<'END'
+{"asset": {"version": "2.0"}, "nodes": [{"camera": 0, "translation": [0, 0.3, 4]}], "cameras": [
+ {"type": "perspective", "perspective": {"yfov": 0.5, "aspectRatio": 2, "znear": 0.1}}]}
+END
+draws "${ball[@]}" --picture camera.png --camera camera.gltf
+differ plain.png camera.png
+[ "$(od -An -tx1 -j16 -N8 camera.png | tr -d ' \n')" = 0000004000000020 ] || fail "camera.png is not 64 x 32"
+echo '{"asset": {"version": "2.0"}, "nodes": [{}]}' >none.gltf
+refused 'no perspective camera' "${ball[@]}" --picture a.png --camera none.gltf
+
+# EXR is what PNG shows, in linear light: to within the dither and a rounding.
+draws "${ball[@]}" --picture plain.exr
+python3 - plain.exr plain.png <<'END' || fail "plain.exr and plain.png differ"
+import struct, sys, zlib
+exr, png = (open(name, "rb").read() for name in sys.argv[1:])
+size = 64
+at = exr.index(b"screenWindowWidth\0") + len(b"screenWindowWidth\0float\0") + 8 + 1
+planes = {}
+for block in range(size // 16):
+    start, = struct.unpack_from("<Q", exr, at + 8 * block)
+    y0, length = struct.unpack_from("<iI", exr, start)
+    data = exr[start + 8:start + 8 + length]
+    if length < 16 * size * 12:
+        data = bytearray(zlib.decompress(data))
+        for i in range(1, len(data)):
+            data[i] = (data[i - 1] + data[i] - 128) % 256
+        half = (len(data) + 1) // 2
+        data = bytes(b for pair in zip(data[:half], data[half:]) for b in pair)
+    for row in range(16):
+        for k, name in enumerate("BGR"):
+            planes[name, y0 + row] = struct.unpack_from(f"<{size}f", data, 4 * size * (3 * row + k))
+pixels, chunk = b"", 8
+while chunk < len(png):
+    length, kind = struct.unpack_from(">I4s", png, chunk)
+    if kind == b"IDAT":
+        pixels += png[chunk + 8:chunk + 8 + length]
+    chunk += 12 + length
+rows, before = zlib.decompress(pixels), bytes(3 * size)
+assert png[24] == 8 and png[25] == 2
+worst = 0
+for y in range(size):
+    kind, row = rows[y * (3 * size + 1)], bytearray(rows[y * (3 * size + 1) + 1:(y + 1) * (3 * size + 1)])
+    for i in range(len(row)):
+        a, b, c = (row[i - 3] if i >= 3 else 0), before[i], (before[i - 3] if i >= 3 else 0)
+        p = a + b - c
+        paeth = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
+        row[i] = (row[i] + (0, a, b, (a + b) // 2, paeth)[kind]) % 256
+    before = bytes(row)
+    for i, byte in enumerate(row):
+        x = min(max(planes["RGB"[i % 3], y][i // 3], 0), 1)
+        srgb = 12.92 * x if x <= 0.0031308 else 1.055 * x ** (1 / 2.4) - 0.055
+        worst = max(worst, abs(255 * srgb - byte))
+assert worst < 1.2, worst  # the dither is half a percent, the rounding half a step
+assert max(max(row) for row in planes.values()) > 0.3
+END
+
 [ $failures -eq 0 ] && echo "all right"
 exit $((failures > 0))
