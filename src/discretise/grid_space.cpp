@@ -536,18 +536,7 @@ bool is_of_sheets(const NodeShape& nodes) {
 
 }  // namespace
 
-constexpr Method grid_method = {.name = "grid",
-                                .summary = "on the nodes of a grid",
-                                .refine = midpoint_refine,
-                                .smooth = false,
-                                .interpolate = nullptr,
-                                .make_space = nullptr,
-                                .own_mesh = false,
-                                .nodal = true,
-                                .edges = 1,
-                                .max_valence = std::numeric_limits<Index>::max(),
-                                .safe_anisotropy = 2,
-                                .make_node_space = node_space,
-                                .fits = is_of_sheets};
+constexpr Method grid_method = {
+    .name = "grid", .summary = "on the nodes of a grid", .make_node_space = node_space, .fits = is_of_sheets};
 
 }  // namespace pelage

@@ -91,21 +91,13 @@ constexpr Method remeshed_method = {.name = "remeshed",
                                     .interpolate = loop_interpolation,
                                     .make_space = remeshed_space,
                                     .own_mesh = true,
-                                    .nodal = true,
                                     .edges = 5.0 / 3,
                                     .max_valence = max_loop_valence,
                                     .safe_anisotropy = 3.5};
 
 constexpr Method linear_method = {.name = "linear",
                                   .summary = "on the flat triangles of the shape",
-                                  .refine = midpoint_refine,
-                                  .smooth = false,
-                                  .interpolate = nullptr,
                                   .make_space = linear_space,
-                                  .own_mesh = false,
-                                  .nodal = true,
-                                  .edges = 1,
-                                  .max_valence = std::numeric_limits<Index>::max(),
                                   .safe_anisotropy = 2};
 
 }  // namespace pelage

@@ -163,9 +163,7 @@ constexpr Method loop_method = {.name = "loop",
                                 .smooth = true,
                                 .interpolate = loop_interpolation,
                                 .make_space = loop_space,
-                                .own_mesh = false,
                                 .nodal = false,
-                                .edges = 1,
                                 .max_valence = max_loop_valence,
                                 .safe_anisotropy = 32};
 

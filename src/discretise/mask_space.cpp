@@ -227,15 +227,6 @@ bool is_grid(const NodeShape& nodes) { return std::holds_alternative<Grid>(nodes
 
 constexpr Method mask_method = {.name = "masks",
                                 .summary = "on sheets, as Witkin and Kass did it",
-                                .refine = midpoint_refine,
-                                .smooth = false,
-                                .interpolate = nullptr,
-                                .make_space = nullptr,
-                                .own_mesh = false,
-                                .nodal = true,
-                                .edges = 1,
-                                .max_valence = std::numeric_limits<Index>::max(),
-                                .safe_anisotropy = 2,
                                 .make_node_space = mask_space,
                                 .fits = is_grid,
                                 .symmetric = false};

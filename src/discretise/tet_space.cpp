@@ -359,18 +359,7 @@ bool is_of_tets(const NodeShape& nodes) { return std::holds_alternative<TetMesh>
 
 }  // namespace
 
-constexpr Method tets_method = {.name = "tets",
-                                .summary = "in a volume",
-                                .refine = midpoint_refine,
-                                .smooth = false,
-                                .interpolate = nullptr,
-                                .make_space = nullptr,
-                                .own_mesh = false,
-                                .nodal = true,
-                                .edges = 1.5,
-                                .max_valence = std::numeric_limits<Index>::max(),
-                                .safe_anisotropy = 2,
-                                .make_node_space = tet_space,
-                                .fits = is_of_tets};
+constexpr Method tets_method = {
+    .name = "tets", .summary = "in a volume", .edges = 1.5, .make_node_space = tet_space, .fits = is_of_tets};
 
 }  // namespace pelage

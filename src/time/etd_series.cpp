@@ -12,6 +12,10 @@ namespace {
 /// Radii that are raised so often were not too small: the operator is none of a diffusion.
 constexpr int most_trials = 8;
 
+/// Series are exact relative to the change of a field in the step, so that a faint pattern on a large mean is followed
+/// as well; a change below this share of the field is none.
+constexpr double smallest_change = 1e-3;
+
 std::string why_no_series(const System& system) {
   if (!system.coupled.index.empty()) return "it does not take species that are coupled by Laplacians";
   if (system.set_values) return "it cannot give values at borders";
@@ -83,7 +87,8 @@ bool EtdBySeries::take_step(const System& system, const State& state, const Step
     w.diffusion.apply(u, slope_);
     rate_ = w.rest + parts_.c(i) * u - slope_;
     clear_held(held_of(system, i), rate_);
-    w.tolerance = request.solver_tolerance * std::max(w.diffusion.length(u), h * w.diffusion.length(rate_));
+    w.tolerance =
+        request.solver_tolerance * std::max(h * w.diffusion.length(rate_), smallest_change * w.diffusion.length(u));
     next_[i] = w.end = u;
     if (!add(w, rate_, {{&w.functions.half_phi1, &next_[i]}, {&w.functions.phi1, &w.end}}, report)) return false;
   }

@@ -10,7 +10,7 @@ namespace pelage {
 /// u + h phi_1 f, so that three sums over the powers of an operator make a step:
 ///   a  = u + h/2 phi_1(hL/2) f                                   b = e + 2 h phi_1 (N(a) - N(u))
 ///   e  = u + h phi_1 f           u' = e + 4h (phi_2 - 2 phi_3) (N(a) - N(u)) + h (4 phi_3 - phi_2) (N(b) - N(u))
-/// Fluxes are part of N. Series are as exact as linear solves are asked to be, relative to the field.
+/// Fluxes are part of N. Series are as exact as linear solves are asked to be.
 class EtdBySeries {
  public:
   StepReport step(const System& system, State& state, const StepRequest& request);
