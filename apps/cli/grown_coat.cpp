@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "grow_run.h"
+#include "input_unit.h"
 #include "io/file_bytes.h"
 #include "look/coat_sampler.h"
 #include "look/dress.h"
