@@ -1,6 +1,8 @@
 #include "grow_files.h"
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
 
 #include "grow_run.h"
 #include "io/file_bytes.h"
@@ -23,15 +25,20 @@ struct Saving {
   std::vector<std::string> losses;  ///< what it cannot hold
 };
 
-void write_outputs(const std::vector<std::string>& paths, const std::function<Saving(const std::string&)>& save_as,
-                   const Progress& progress, GrowReport& report) {
+/// Returns all files.
+std::vector<std::string> write_outputs(const std::vector<std::string>& paths,
+                                       const std::function<Saving(const std::string&)>& save_as,
+                                       const Progress& progress, GrowReport& report) {
+  std::vector<std::string> written;
   for (const std::string& path : paths) {
     progress("writing " + path, 0);
     Saving saving;
     interruptible("before " + path + " was written", [&] { saving = save_as(path); });
     for (const std::string& file : saving.files) report.file(file, saving.about);
     for (const std::string& loss : saving.losses) report.warning(path + ": " + loss);
+    std::ranges::move(saving.files, std::back_inserter(written));
   }
+  return written;
 }
 
 template <class Mesh>
@@ -83,12 +90,12 @@ void write_files(const GrowOptions& options, const Grown& grown, const ShapeFile
     if (!keep_shape || grown.shape->triangles.empty()) return save_surface(grown.coat, path, form);
     return save_mesh(coat_in_file(grown, file), path, form);
   };
-  write_outputs(options.outputs, save_as, progress, report);
+  const std::vector<std::string> written = write_outputs(options.outputs, save_as, progress, report);
   if (!options.patch_images.empty())
     for (const std::string& path : save_patches(*grown.patches, options.patch_images)) report.file(path);
   if (options.baked_maps.empty()) return;
   progress("writing " + options.baked_maps + "-color.png and the others", 0);
-  for (const MapFile& map : save_maps(*grown.textures, options.baked_maps)) report.file(map.path, map.about);
+  for (const MapFile& map : save_maps(*grown.textures, options.baked_maps, written)) report.file(map.path, map.about);
 }
 
 namespace {

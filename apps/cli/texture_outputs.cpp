@@ -355,12 +355,15 @@ std::pair<double, double> range_of(const std::vector<std::vector<float>>& height
 
 }  // namespace
 
-std::vector<MapFile> save_maps(const CoatTextures& textures, const std::string& prefix) {
+std::vector<MapFile> save_maps(const CoatTextures& textures, const std::string& prefix,
+                               const std::vector<std::string>& written) {
   std::vector<MapFile> files;
   std::vector<std::function<void()>> tasks;
   const auto add = [&](std::size_t tile, const std::string& name, const std::string& extension,
                        const std::string& about, const std::function<void(const std::string&)>& write) {
-    files.push_back({tile_file(textures, tile, prefix + "-" + name, extension), about});
+    const std::string path = tile_file(textures, tile, prefix + "-" + name, extension);
+    files.push_back({path, about});
+    if (std::ranges::any_of(written, [&](const std::string& w) { return true_path(w) == true_path(path); })) return;
     tasks.emplace_back([write, path = files.back().path] { write(path); });
   };
   for (std::size_t t = 0; t < textures.maps.size(); ++t) {

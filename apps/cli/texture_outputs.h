@@ -88,7 +88,9 @@ struct MapFile {
   std::string path, about;
 };
 
-/// PREFIX-color.png and the others that there are; of tiles PREFIX-color.1001.png and so on.
-std::vector<MapFile> save_maps(const CoatTextures& textures, const std::string& prefix);
+/// PREFIX-color.png and the others that there are; of tiles PREFIX-color.1001.png and so on. Those among
+/// `written`, which lie beside a mesh of these textures already, are not written again.
+std::vector<MapFile> save_maps(const CoatTextures& textures, const std::string& prefix,
+                               const std::vector<std::string>& written);
 
 }  // namespace pelage

@@ -4,10 +4,11 @@
 
 #include <csignal>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 #include "io/written_meshes.h"
-#include "pelage/error.h"
+#include "support/expect_error.h"
 
 namespace pelage {
 namespace {
@@ -25,15 +26,8 @@ std::size_t files_in(const fs::path& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
-template <class Call>
-void expect_output_error(Call&& call, const std::string& part) {
-  try {
-    call();
-    FAIL() << "no error, expected: " << part;
-  } catch (const Error& error) {
-    EXPECT_EQ(error.fault(), Fault::output);
-    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-  }
+void expect_output_error(const std::function<void()>& call, const std::string& words) {
+  test::expect_error(Fault::output, words, call);
 }
 
 TEST(AtomicFile, AppearsAtCommitOnly) {

@@ -13,12 +13,13 @@
 #include "io/file_bytes.h"
 #include "io/publication.h"
 #include "io/written_meshes.h"
-#include "pelage/error.h"
+#include "support/expect_error.h"
 
 namespace pelage {
 namespace {
 
 namespace fs = std::filesystem;
+using test::expect_error;
 
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
@@ -28,17 +29,6 @@ std::vector<std::string> names_in(const fs::path& folder) {
 }
 
 using Names = std::vector<std::string>;
-
-template <class Call>
-void expect_error(Fault fault, const std::string& part, Call&& call) {
-  try {
-    call();
-    FAIL() << "no error, expected: " << part;
-  } catch (const Error& error) {
-    EXPECT_EQ(error.fault(), fault);
-    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-  }
-}
 
 /// Does it in another process, which then dies without any cleaning up.
 template <class Work>

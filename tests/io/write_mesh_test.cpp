@@ -5,25 +5,15 @@
 #include <sstream>
 
 #include "io/written_meshes.h"
-#include "pelage/error.h"
 #include "pelage/io.h"
 #include "support/decimal_comma.h"
+#include "support/expect_error.h"
 
 namespace pelage {
 namespace {
 
 namespace fs = std::filesystem;
-
-template <class Call>
-void expect_error(Fault fault, const std::string& part, Call&& call) {
-  try {
-    call();
-    FAIL() << "no error, expected: " << part;
-  } catch (const Error& error) {
-    EXPECT_EQ(error.fault(), fault);
-    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-  }
-}
+using test::expect_error;
 
 std::string contents(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -294,9 +294,9 @@ expect 5 'folder.png: ' grow missing.obj --picture folder.png
 
 # --- the input is safe ---------------------------------------------------------------------------------------
 succeed grow $sphere "${quick[@]}" --keep-shape -o mine.ply
-expect 2 'the output .*mine.ply is the input' grow mine.ply -o "$work/mine.ply"
-expect 2 'the output mine.ply is the input' fair mine.ply -o mine.ply
-expect 2 'the output mine.ply is the input' field mine.ply -o mine.ply
+expect 2 'the output .*mine.ply is an input' grow mine.ply -o "$work/mine.ply"
+expect 2 'the output mine.ply is an input' fair mine.ply -o mine.ply
+expect 2 'the output mine.ply is an input' field mine.ply -o mine.ply
 
 # --- failed computation: 4 -----------------------------------------------------------------------------------
 expect 4 "step [0-9]+, time .*[ab] becomes .* at vertex [0-9]+ \\(.*, .*, .*\\); [ab] went negative: give it min = 0 in the model, .*, or halve the step" grow $sphere --size 0.3 --stepper explicit --step 1000 --until 1e9 -o failed.ply
@@ -592,7 +592,7 @@ interrupt "pelage: growing" "${long[@]}"
 grep -q '^130 .*pelage: error: interrupted at [0-9]* steps' interrupt.log || fail "Ctrl-C: $(cat interrupt.log)"
 [ -z "$(ls interrupted)" ] || fail "Ctrl-C left files: $(ls interrupted)"
 interrupt "pelage: growing" "${long[@]}" --checkpoint interrupted/state
-grep -q '^130 .*--resume interrupted/state' interrupt.log || fail "Ctrl-C with a checkpoint: $(cat interrupt.log)"
+grep -q '^130 .*pelage resume interrupted/state' interrupt.log || fail "Ctrl-C with a checkpoint: $(cat interrupt.log)"
 [ "$(ls interrupted)" = state ] || fail "Ctrl-C with a checkpoint left: $(ls interrupted)"
 
 rm interrupted/state

@@ -62,7 +62,7 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\
 grep -q 'charts take the polygons as they are' log || fail "three pages at one spine are not noted"
 
 refused 3 'no-such.obj' unwrap no-such.obj
-refused 2 'the output house.obj is the input' unwrap house.obj -o house.obj
+refused 2 'the output house.obj is an input' unwrap house.obj -o house.obj
 refused 2 'not a whole number from 16' unwrap house.obj --resolution 3
 refused 2 'not a number of at least 0' unwrap house.obj --margin -1
 refused 2 'do not fit the atlas' unwrap house.obj --resolution 64 --margin 60
