@@ -64,7 +64,7 @@ void report(const CellsCommand& command, const Cells& cells, const PolygonMesh& 
               brief(smallest / mean).c_str(), brief(largest / mean).c_str());
   std::printf("sides     six at %s %% of the cells\n",
               brief(100 * static_cast<double>(six) / static_cast<double>(sides.size())).c_str());
-  publish_and_tell(files);
+  print_written(files);
 }
 
 void run_cells(const CellsCommand& command) {
@@ -86,6 +86,7 @@ void run_cells(const CellsCommand& command) {
     PictureScene scene(cells_to_see(cells));
     take_pictures(command.picture, command.view, picture, [&](const PictureOptions& p) { return scene.render(p); });
   }
+  publish_outputs();
   report(command, cells, outlines, maker);
 }
 

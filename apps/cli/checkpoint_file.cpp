@@ -34,18 +34,18 @@ std::string sound_checkpoint(const std::string& path) {
   return bytes;
 }
 
+/// "--option", or "--option=VALUE".
+std::vector<std::string>::iterator find_option(std::vector<std::string>& words, const std::string& option) {
+  return std::ranges::find_if(
+      words, [&](const std::string& word) { return word == option || word.starts_with(option + "="); });
+}
+
 /// Removes an option with so many values after it.
 void drop(std::vector<std::string>& words, const std::string& option, std::ptrdiff_t values) {
-  const auto found = std::ranges::find_if(
-      words, [&](const std::string& word) { return word == option || word.starts_with(option + "="); });
+  const auto found = find_option(words, option);
   if (found == words.end()) return;
   const std::ptrdiff_t rest = words.end() - found;
   words.erase(found, found + (*found == option ? std::min(1 + values, rest) : 1));
-}
-
-bool has(const std::vector<std::string>& words, const std::string& option) {
-  return std::ranges::any_of(words,
-                             [&](const std::string& word) { return word == option || word.starts_with(option + "="); });
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ std::vector<std::string> words_to_resume(const std::string& path) {
     throw Error(Fault::input, "the folder of its run, " + folder + ", cannot be entered: " + reason.message(), {path});
   drop(words, "--nested", 0);
   drop(words, "--resume", 1);
-  if (has(words, "--frames")) return words;  // which show the growth from its beginning
+  if (find_option(words, "--frames") != words.end()) return words;  // which show the growth from its beginning
   words.insert(words.end(), {"--resume", file});
   return words;
 }

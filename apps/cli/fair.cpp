@@ -114,6 +114,7 @@ void finish(const FairCommand& command, const ShapeFile& file, const Result& res
   if (!command.quiet && !command.json) print_findings(file.findings);
   const std::vector<std::string> warnings = save_all(in_form_of_file(command, file, result.mesh), command.outputs,
                                                      {object_name(file, command.shape), file.up});
+  publish_outputs();
   if (command.json) {
     Json json = to_json(command, result.report);
     json["findings"] = json_findings(file.findings);
@@ -122,7 +123,7 @@ void finish(const FairCommand& command, const ShapeFile& file, const Result& res
   }
   if (command.quiet) return;
   print_report(command, result.report);
-  publish_and_tell(command.outputs);
+  print_written(command.outputs);
 }
 
 void run_fair(const FairCommand& command) {

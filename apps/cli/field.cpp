@@ -137,7 +137,7 @@ void report(const FieldCommand& o, const ShapeFile& file, const std::vector<std:
   std::printf("field     %d direction%s at each of %zu vertices\n", o.n, o.n == 1 ? "" : "s", mesh.points.size());
   std::printf("singular  %d triangles of positive index, %d of negative; sum of the indices %s\n", c.positive,
               c.negative, number(static_cast<double>(c.sum) / o.n).c_str());
-  publish_and_tell(files);
+  print_written(files);
 }
 
 void run_field(const FieldCommand& o) {
@@ -159,6 +159,7 @@ void run_field(const FieldCommand& o) {
     if (!before.empty()) warn("the new field takes the place of " + join_names(before) + " of the shape", warnings);
   }
   if (!o.picture.empty()) draw(o, mesh, up, c, field, bar.progress());
+  publish_outputs();
   bar.clear();
   report(o, file, warnings, field);
 }

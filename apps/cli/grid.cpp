@@ -79,7 +79,8 @@ void draw_regions(const GridCommand& command) {
     grids.push_back({name, generate(region, options).grid});
   }
   write_png(grid_lines_sheet(grids, columns, command.size / columns), command.picture);
-  if (!command.quiet && !command.json) publish_and_tell({command.picture});
+  publish_outputs();
+  if (!command.quiet && !command.json) print_written({command.picture});
 }
 
 void print_grid(const GridCommand& command, const GeneratedGrid& g) {
@@ -100,8 +101,8 @@ void print_grid(const GridCommand& command, const GeneratedGrid& g) {
       {"functional", brief(g.functional)}};
   std::puts("quality");
   std::fputs(table(rows, 2).c_str(), stdout);
-  publish_and_tell(command.outputs);
-  if (!command.picture.empty()) publish_and_tell({command.picture});
+  print_written(command.outputs);
+  if (!command.picture.empty()) print_written({command.picture});
 }
 
 Json to_json(const GridCommand& command, const GeneratedGrid& g) {
@@ -147,6 +148,7 @@ void make_grid(const GridCommand& command) {
   const ThreadLimit threads(command.threads);
   const GeneratedGrid made = generate(region, options);
   write_outputs(command, made.grid, region.name);
+  publish_outputs();
   if (command.json)
     print_json(to_json(command, made));
   else if (!command.quiet)

@@ -246,7 +246,8 @@ void begin_model(std::string name) {
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored)) throw Error(Fault::output, "exists already; give another name", {path});
   write_file(path, text);
-  publish_and_tell({path});
+  publish_outputs();
+  print_written({path});
   std::printf("try       pelage analyse %s\n", path.c_str());
   std::printf("          pelage grow builtin:animal --model %s -o %s.glb --picture %s.png\n", path.c_str(),
               name.c_str(), name.c_str());

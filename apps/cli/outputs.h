@@ -29,9 +29,8 @@ std::vector<std::string> save_all(const Mesh& mesh, const std::vector<std::strin
   return warnings;
 }
 
-/// All files of the command appear now, and are told of.
-inline void publish_and_tell(const std::vector<std::string>& paths) {
-  publish_outputs();
+/// A line for each file that has appeared.
+inline void print_written(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) std::printf("wrote     %s\n", path.c_str());
 }
 

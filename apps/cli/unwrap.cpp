@@ -87,6 +87,7 @@ void run_unwrap(const UnwrapCommand& command) {
   const std::vector<std::string> warnings =
       save_all(mesh, command.outputs, {object_name(file, command.shape), file.up});
   if (!command.picture.empty()) write_png(atlas_picture(mesh, result.chart, picture_width), command.picture);
+  publish_outputs();
   if (command.json) {
     Json json = to_json(command, result.report);
     json["findings"] = json_findings(file.findings);
@@ -95,7 +96,7 @@ void run_unwrap(const UnwrapCommand& command) {
   }
   if (command.quiet) return;
   print_report(result.report);
-  publish_and_tell(command.files());
+  print_written(command.files());
 }
 
 }  // namespace

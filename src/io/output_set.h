@@ -2,7 +2,6 @@
 // The files of a command as one: all of them appear, or none.
 
 #include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -27,6 +27,15 @@ struct ConjugateGradientOptions {
 /// Per unknown, whether it keeps the value of the first guess; null where none does.
 using Held = std::vector<char>;
 
+/// Zeros at the unknowns that are held.
+inline void clear_held(const Held* held, Vector& x) {
+  if (!held) return;
+  parallel_for(held->size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      if ((*held)[k]) x.data()[k] = 0;
+  });
+}
+
 /// What the next direction needs of a residual r: |r|^2, and r . P r without conjugation.
 template <class Scalar>
 struct ResidualSums {

@@ -13,14 +13,6 @@ namespace {
 /// Far below what a step may be wrong by, and what polynomials of high degree make of it.
 constexpr double mass_tolerance = 1e-13;
 
-void clear(const Held* held, Vector& x) {
-  if (!held) return;
-  parallel_for(held->size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k)
-      if ((*held)[k]) x.data()[k] = 0;
-  });
-}
-
 }  // namespace
 
 void DiffusionOperator::update(const System& system, std::size_t species) {
@@ -48,11 +40,11 @@ void DiffusionOperator::over_mass(const Vector& load, Vector& y) const {
     return;
   }
   y = inverse_sums_.cwiseProduct(load);
-  clear(held_.get(), y);
+  clear_held(held_.get(), y);
   if (diagonal_) return;
   pelage::apply(*mass_, y, product_);
   y = 2 * y - inverse_sums_.cwiseProduct(product_);
-  clear(held_.get(), y);
+  clear_held(held_.get(), y);
 }
 
 void DiffusionOperator::apply(const Vector& x, Vector& y) const {
@@ -77,7 +69,7 @@ double DiffusionOperator::largest_eigenvalue() const {
   Vector x = diagonal(*stiffness_).cwiseProduct(inverse_sums_.cwiseAbs()), y;
   for (Eigen::Index i = 0; i < x.size(); ++i)
     if (hash(1, static_cast<std::uint64_t>(i)) % 2) x[i] = -x[i];
-  clear(held_.get(), x);
+  clear_held(held_.get(), x);
   double largest = 0;
   for (int k = 0; k < iterations; ++k) {
     const double before = norm(x);

@@ -24,11 +24,6 @@ std::string why_no_series(const System& system) {
   return {};
 }
 
-void clear_held(const Held* held, Vector& x) {
-  for (std::size_t k = 0; held && k < held->size(); ++k)
-    if ((*held)[k]) x[static_cast<Eigen::Index>(k)] = 0;
-}
-
 }  // namespace
 
 void EtdBySeries::Functions::update(double step, double linear, double radius) {

@@ -13,11 +13,14 @@
 #include "shape/generators.h"
 #include "shape/topology.h"
 #include "support/lattice_system.h"
+#include "support/random_matrices.h"
 #include "support/space_system.h"
 #include "support/steppers.h"
 
 namespace pelage {
 namespace {
+
+using testing::dense;
 
 using std::numbers::pi;
 
@@ -28,15 +31,6 @@ std::shared_ptr<const Space> sphere(const Method& method, int vertices) {
 }
 
 double uneven(const Point& p) { return 1 + 0.4 * p[0] - 0.3 * p[1] * p[2] + 0.2 * std::sin(5 * p[2]); }
-
-Eigen::MatrixXd dense(const SparseMatrix& a) {
-  Eigen::MatrixXd d = Eigen::MatrixXd::Zero(a.rows(), a.columns());
-  for (std::int32_t i = 0; i < a.rows(); ++i)
-    for (auto k = a.pattern->start[static_cast<std::size_t>(i)]; k < a.pattern->start[static_cast<std::size_t>(i) + 1];
-         ++k)
-      d(i, a.pattern->column[static_cast<std::size_t>(k)]) += a.value[static_cast<std::size_t>(k)];
-  return d;
-}
 
 /// The operator of time/diffusion_operator.h, written down a second time: one term of the series of the mass.
 Eigen::MatrixXd dense_diffusion(const SpaceSystem& s, double diffusion) {
