@@ -51,6 +51,7 @@ void drop(std::vector<std::string>& words, const std::string& option, std::ptrdi
 }  // namespace
 
 void CheckpointFile::keep_at(const std::string& path) {
+  if (path.empty()) return;
   expect_output(path);
   path_ = path;
   automatic_ = true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/suggest.h"
 #include "catalog/bind.h"
@@ -16,6 +17,7 @@
 #include "io/file_bytes.h"
 #include "look/grid_picture.h"
 #include "look/solid_tessellation.h"
+#include "look/tessellation.h"
 #include "node_outputs.h"
 #include "pelage/io.h"
 #include "picture_files.h"
@@ -119,6 +121,23 @@ ShapeFile read_input(const GrowOptions& options, const std::string& shape, const
   return file;
 }
 
+/// Of all that a coat and its files take while they are made, measured [bytes].
+constexpr double coat_triangle = 400;
+
+/// Refuses what cannot be: before it begins.
+void foresee(const Program& program, const CoatRequest& request, GrowReport& report) {
+  const Forecast growth = forecast(program);
+  const Look& look = request.look;
+  const auto shape = static_cast<double>(shape_of(program)->triangles.size());
+  const double triangles =
+      program.nodes || look.keep_shape ? shape : most_tessellated(tessellation_request(look), growth.triangles, shape);
+  const double coat = coat_triangle * triangles;
+  report.need(growth, std::max(growth.bytes, coat));
+  require_memory(program);
+  if (look.detail)
+    require_memory(coat, "a coat of " + brief(triangles) + " triangles", "a --detail of less by one needs a quarter");
+}
+
 void grow_run(const GrowOptions& options, Run& run, const CoatRequest& request, CheckpointFile& saved,
               const Progress& progress, GrowReport& report) {
   check_coat(request);
@@ -191,6 +210,7 @@ void grow(const GrowOptions& options) {
   std::shared_ptr<const Program> program;
   auto run = interruptible("before the growth began; nothing was written", [&] {
     program = std::make_shared<const Program>(bind_plan(planned, file, std::move(images)));
+    foresee(*program, request, report);
     return std::make_unique<Run>(program, World(program, progress), progress);
   });
   CheckpointFile saved(options.checkpoint, options.every_minutes);

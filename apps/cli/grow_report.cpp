@@ -1,12 +1,14 @@
 #include "grow_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
 
 #include "base/box.h"
 #include "base/length_unit.h"
+#include "base/memory.h"
 #include "io/output_set.h"
 #include "shape/builtin_grids.h"
 #include "shape/generators.h"
@@ -212,6 +214,14 @@ void GrowReport::surface(const MovingSurface& surface) {
   if (!fairing->done()) warning("the growth ended before the noise was off the surface; lower --every or grow longer");
   json_["fairing"] = {
       {"noise_edges", r.noise}, {"steps", r.steps}, {"moved_edges", r.moved}, {"done", fairing->done()}};
+}
+
+void GrowReport::need(const Forecast& forecast, double bytes) {
+  constexpr double much = 1e9;
+  json_["estimated_nodes"] = std::round(forecast.nodes);
+  json_["estimated_bytes"] = std::round(bytes);
+  if (bytes < much) return;
+  line("needs", "about " + bytes_in_words(bytes) + " of memory for " + brief(forecast.nodes) + " nodes");
 }
 
 void GrowReport::estimate(const Run& run, double seconds) {

@@ -7,6 +7,7 @@
 #include "pelage/io.h"
 #include "profile.h"
 #include "progress_bar.h"
+#include "run/forecast.h"
 #include "run/run.h"
 
 namespace pelage {
@@ -25,6 +26,8 @@ class GrowReport {
   void warning(const std::string& text);
   /// Those that the run did not give before.
   void warnings(const Run& run);
+  /// What is going to be needed, where that is much.
+  void need(const Forecast& forecast, double bytes);
   void pattern(const Run& run);
   /// Warns of a shape whose vertices alone cannot show the pattern.
   void coarseness(const Run& run);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/number.h"
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
 #include "run/nested.h"
@@ -76,11 +77,28 @@ void advance(Run& run, std::int64_t steps) {
   }
 }
 
+std::string beside_output(const GrowOptions& options) {
+  const std::string output = options.outputs.empty() ? options.picture : options.outputs.front();
+  return output.empty() ? "" : output + ".checkpoint";
+}
+
+/// The state before the step that failed is kept, to be looked at.
+[[noreturn]] void failed(const Run& run, const GrowOptions& options, CheckpointFile& saved) {
+  const RunSummary& summary = run.summary();
+  if (summary.steps == 0) throw Error(Fault::numerics, summary.message);
+  if (saved.path().empty()) saved.keep_at(beside_output(options));
+  saved.save(run);
+  const std::string kept = saved.path().empty() ? ""
+                                                : "; the state before is kept: --resume " + saved.path() + " --until " +
+                                                      exact_number(summary.time) + " shows it";
+  throw Error(Fault::numerics, summary.message + kept);
+}
+
 /// Where a growth takes long and nobody thought of that.
 void keep_beside(const GrowOptions& options, CheckpointFile& saved, GrowReport& report) {
-  const std::string output = options.outputs.empty() ? options.picture : options.outputs.front();
-  if (output.empty()) return;
-  saved.keep_at(output + ".checkpoint");
+  const std::string path = beside_output(options);
+  if (path.empty()) return;
+  saved.keep_at(path);
   report.saving(saved.path(), options.every_minutes);
 }
 
@@ -121,7 +139,7 @@ void grow_to_the_end(Run& run, const GrowOptions& options, const Observer& each_
     }
     saved.look_at(run);
   }
-  if (run.summary().status == RunStatus::failed) throw Error(Fault::numerics, run.summary().message);
+  if (run.summary().status == RunStatus::failed) failed(run, options, saved);
   saved.save(run);
   if (interrupt_signal()) interrupted(run, saved.path());
 }

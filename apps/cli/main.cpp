@@ -1,14 +1,18 @@
 // The command line: options to library calls, faults to exit codes.
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <new>
 #include <string>
 #include <vector>
 
+#include "base/memory.h"
 #include "command.h"
 #include "help_format.h"
 #include "interrupt.h"
@@ -22,6 +26,9 @@ namespace {
 
 using pelage::Error;
 using pelage::Fault;
+
+/// Less does not do for anything: the program itself and its threads.
+constexpr double smallest_memory = 1e8;
 
 constexpr const char* examples = R"(Examples:
   pelage grow cow.obj --model turing --size 0.04 -o cow.glb --picture cow.png
@@ -61,6 +68,37 @@ void add_force(const std::vector<pelage::Command>& commands, bool& force) {
       command.app->add_flag("--force", force, "Let an output take the place of a file that is read");
 }
 
+/// For the same commands: the work of others is small.
+void add_max_memory(const std::vector<pelage::Command>& commands, double& bytes) {
+  const std::map<std::string, double> units = {
+      {"B", 1}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}, {"GiB", 1024 * 1024 * 1024}, {"TB", 1e12}};
+  for (const pelage::Command& command : commands)
+    if (command.app->get_option_no_throw("--output"))
+      command.app
+          ->add_option("--max-memory", bytes,
+                       "Take no more memory than this, such as 4GB (default: what the machine has left)")
+          ->transform(CLI::AsNumberWithUnit(units, CLI::AsNumberWithUnit::CASE_INSENSITIVE, "SIZE"))
+          ->check(CLI::Range(smallest_memory, 1e18));
+}
+
+/// What needs more is refused beforehand where that is foreseen, and else fails as on a machine that has no more.
+void take_at_most(double bytes) {
+  pelage::limit_memory(bytes);
+  rlimit limit{};
+  if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  limit.rlim_cur = std::min(limit.rlim_max, static_cast<rlim_t>(bytes));
+  setrlimit(RLIMIT_DATA, &limit);
+}
+
+std::string out_of_memory() {
+  std::string limit;
+  pelage::memory_left(&limit);
+  const double most = pelage::memory_used_at_most();
+  return "out of memory" + (most > 0 ? " at " + pelage::bytes_in_words(most) : "") +
+         (limit.empty() ? "" : ": " + limit) +
+         "; take a coarser mesh, a larger --size or a smaller --detail or fewer texels";
+}
+
 /// Its outputs appear together at its end, or not at all. Returns the exit code.
 int run_command(std::vector<std::string> words) {
   CLI::App app("Grows reaction-diffusion coats directly on surfaces.", "pelage");
@@ -69,7 +107,9 @@ int run_command(std::vector<std::string> words) {
   app.footer(examples);
   const std::vector<pelage::Command> commands = all_commands(app);
   bool force = false;
+  double max_memory = 0;
   add_force(commands, force);
+  add_max_memory(commands, max_memory);
   if (words.empty()) {
     std::fputs(app.help().c_str(), stderr);
     return static_cast<int>(Fault::usage);
@@ -83,6 +123,7 @@ int run_command(std::vector<std::string> words) {
   const pelage::Command& command = *used;
   if (command.stands_for) return run_command(command.stands_for());
   pelage::set_invocation({std::move(words), std::filesystem::current_path().string()});
+  if (max_memory > 0) take_at_most(max_memory);
   pelage::OutputSet outputs(force);
   command.run();
   outputs.publish();
@@ -97,8 +138,7 @@ int run(const std::vector<std::string>& words) {
   } catch (const Error& error) {
     return report(error.what(), exit_code_of(error.fault()), json);
   } catch (const std::bad_alloc&) {
-    return report("out of memory; take a coarser mesh, a larger --size or a smaller --detail or fewer texels",
-                  static_cast<int>(Fault::numerics), json);
+    return report(out_of_memory(), static_cast<int>(Fault::numerics), json);
   } catch (const std::exception& error) {
     return report(std::string("unexpected failure: ") + error.what() + "; please report it",
                   static_cast<int>(Fault::numerics), json);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "base/memory.h"
 #include "shape/generators.h"
 
 namespace pelage {
@@ -23,14 +24,7 @@ std::string format(const char* pattern, Values... values) {
 
 std::string brief(double value) { return format("%.3g", value); }
 
-std::string file_size(std::uintmax_t bytes) {
-  if (bytes < 1000) return std::to_string(bytes) + " bytes";
-  const char* units[] = {"kB", "MB", "GB", "TB"};
-  double value = static_cast<double>(bytes) / 1000;
-  std::size_t unit = 0;
-  for (; value >= 999.5 && unit < 3; ++unit) value /= 1000;
-  return format(value < 9.95 ? "%.1f %s" : "%.0f %s", value, units[unit]);
-}
+std::string file_size(std::uintmax_t bytes) { return bytes_in_words(static_cast<double>(bytes)); }
 
 std::string duration(double seconds) {
   if (seconds < 9.95) return format("%.1f s", seconds);

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "base/ascii.h"
+#include "base/memory.h"
 #include "base/number.h"
 #include "base/parallel.h"
 #include "base/srgb.h"
@@ -92,16 +93,6 @@ std::vector<std::string> save_patches(const PatchTexture& texture, const std::st
 
 namespace {
 
-/// Whether the system gives so much memory at once.
-bool has_memory(double bytes) {
-  void* volatile const block = std::malloc(static_cast<std::size_t>(bytes));  // volatile, lest it be left out
-  const bool given = block != nullptr;
-  std::free(block);
-  return given;
-}
-
-std::string gigabytes(double bytes) { return fixed_number(bytes / 1e9, 1) + " GB"; }
-
 /// Of all tiles; `more`: bytes of a texel beside colour and height.
 double bytes_of_images(int size, std::size_t tiles, double more) {
   constexpr double color_and_height = 7, with_files = 1.6;  // measured with all images, which go into files, too
@@ -115,16 +106,15 @@ void require_memory(const UvLayout& layout, const Look& look, bool normals) {
   double more = normals ? 3 : 0;
   for (const auto& [channel, formula] : look.channels)
     more += channel == Channel::emission ? 3 : channel == Channel::height ? 0 : 1;
-  const auto needed = [&](int size) { return bytes_of_images(size, layout.tiles().size(), more); };
-  if (has_memory(needed(layout.size()))) return;
-  int smaller = layout.size() / 2;
-  while (smaller > smallest_texture && !has_memory(needed(smaller))) smaller /= 2;
   const std::size_t tiles = layout.tiles().size();
-  throw Error(Fault::numerics, "images of " + std::to_string(layout.size()) + " x " + std::to_string(layout.size()) +
-                                   " texels" + (tiles > 1 ? ", " + counted(tiles, "tile") + "," : "") + " need " +
-                                   gigabytes(needed(layout.size())) +
-                                   " of memory, which the system does not give; --bake " + std::to_string(smaller) +
-                                   " needs " + gigabytes(needed(smaller)));
+  const auto needed = [&](int size) { return bytes_of_images(size, tiles, more); };
+  const double left = memory_left();
+  int smaller = layout.size() / 2;
+  while (smaller > smallest_texture && needed(smaller) > left) smaller /= 2;
+  const std::string size = std::to_string(layout.size());
+  require_memory(needed(layout.size()),
+                 "baking " + size + " x " + size + " texels" + (tiles > 1 ? " on " + counted(tiles, "tile") : ""),
+                 "--bake " + std::to_string(smaller) + " needs " + bytes_in_words(needed(smaller)));
 }
 
 std::string too_coarse(const TriangleMesh& shape, int size, double wavelength) {

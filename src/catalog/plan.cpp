@@ -222,6 +222,19 @@ void set_wavelength(const Model& model, PlannedStage& stage) {
   stage.wavelength = resolved ? *resolved : model_wavelength(model);
 }
 
+/// Beyond these it is a slip: of so many steps none sees the end, and of a step so much longer nothing is left.
+constexpr double most_steps = 1e12, longest_step = 1000;
+
+/// Before any work: steps and an end that have something to do with each other.
+void require_sensible_steps(const PlannedStage& p) {
+  const double step = p.asked.step.value_or(p.model.source().suggestions.step.value_or(1));
+  const std::string what = "a step of " + number(step) + " until time " + number(p.until);
+  if (p.asked.step && p.until > 0 && step > longest_step * p.until)
+    throw Error(Fault::usage, what + " is far longer than all of the growth; give a smaller one");
+  if (!p.asked.steps && p.until > most_steps * step)
+    throw Error(Fault::usage, what + " takes more than a million million steps; give another step, end, or --steps");
+}
+
 PlannedStage plan_stage(const Stage& stage, const Recipe& recipe, const Method& method,
                         const std::vector<PlannedStage>& before, const Components& components) {
   PlannedStage p;
@@ -241,6 +254,7 @@ PlannedStage plan_stage(const Stage& stage, const Recipe& recipe, const Method& 
   require_sizes(stage);
   set_wavelength(plain, p);
   p.until = stage.until.value_or(source.suggestions.end.value_or(1000));
+  require_sensible_steps(p);
   return p;
 }
 

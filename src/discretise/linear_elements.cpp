@@ -93,11 +93,13 @@ constexpr Method remeshed_method = {.name = "remeshed",
                                     .own_mesh = true,
                                     .edges = 5.0 / 3,
                                     .max_valence = max_loop_valence,
-                                    .safe_anisotropy = 3.5};
+                                    .safe_anisotropy = 3.5,
+                                    .memory = {900, 100}};
 
 constexpr Method linear_method = {.name = "linear",
                                   .summary = "on the flat triangles of the shape",
                                   .make_space = linear_space,
-                                  .safe_anisotropy = 2};
+                                  .safe_anisotropy = 2,
+                                  .memory = {700, 100}};
 
 }  // namespace pelage

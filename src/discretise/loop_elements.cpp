@@ -165,6 +165,7 @@ constexpr Method loop_method = {.name = "loop",
                                 .make_space = loop_space,
                                 .nodal = false,
                                 .max_valence = max_loop_valence,
-                                .safe_anisotropy = 32};
+                                .safe_anisotropy = 32,
+                                .memory = {2850, 100}};
 
 }  // namespace pelage

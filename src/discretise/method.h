@@ -12,6 +12,12 @@
 
 namespace pelage {
 
+/// What a growth takes at most, measured: matrices, samples, basis functions and the mesh itself [bytes].
+struct MemoryNeed {
+  double node = 1000;    ///< for every node
+  double species = 100;  ///< more of it for every species
+};
+
 /// The defaults are those of methods on nodes.
 struct Method {
   std::string_view name;
@@ -36,6 +42,7 @@ struct Method {
   /// Whether it is for that shape.
   bool (*fits)(const NodeShape& nodes) = nullptr;
   bool symmetric = true;  ///< its stiffness matrices are
+  MemoryNeed memory = {};
 };
 
 extern const Method remeshed_method;

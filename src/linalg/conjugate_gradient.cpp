@@ -16,7 +16,8 @@ Vector solve_spd(const SparseMatrix& a, const Vector& b, const ConjugateGradient
   const SolveReport report = conjugate_gradient(a, Jacobi(diagonal(a)), b, x, nullptr, options, work);
   if (!report.converged)
     throw Error(Fault::numerics, "a linear system did not converge (residual " + number(report.residual) + " after " +
-                                     std::to_string(report.iterations) + " iterations)");
+                                     std::to_string(report.iterations) +
+                                     " iterations); the mesh may have triangles without area");
   return x;
 }
 

@@ -17,19 +17,27 @@ constexpr int least_left_margin = 190, right_margin = 50, top_margin = 150, bott
 
 const Color ink = {0.012, 0.012, 0.014}, pale_ink = {0.12, 0.12, 0.13}, paper = {1, 1, 1}, plain = {0.86, 0.86, 0.85};
 
-/// Every how many columns a label has room.
-int label_stride(const std::vector<std::string>& labels, double pitch, bool across) {
-  double needed = 1.2 * small_size;
-  if (across)
-    for (const std::string& label : labels) needed = std::max(needed, text_width(label, small_size) + 18);
-  return std::max(1, static_cast<int>(std::ceil(needed / pitch)));
+/// Below this nobody reads a label.
+constexpr double least_size = 12;
+
+double widest(const std::vector<std::string>& labels) {
+  double width = 0;
+  for (const std::string& label : labels) width = std::max(width, text_width(label, small_size));
+  return width;
 }
+
+/// Smaller where the labels of columns have no room otherwise.
+double label_size(const std::vector<std::string>& labels, double pitch) {
+  constexpr double between = 14;
+  return std::clamp(small_size * (pitch - between) / std::max(widest(labels), 1.0), least_size, double{small_size});
+}
+
+/// Every how many columns, or rows, a label has room.
+int label_stride(double needed, double pitch) { return std::max(1, static_cast<int>(std::ceil(needed / pitch))); }
 
 /// Room for the words at the rows.
 int left_margin_of(const ContactSheet& sheet) {
-  double widest = 0;
-  for (const std::string& label : sheet.y) widest = std::max(widest, text_width(label, small_size));
-  return std::max(least_left_margin, static_cast<int>(std::ceil(widest)) + 90);
+  return std::max(least_left_margin, static_cast<int>(std::ceil(widest(sheet.y))) + 90);
 }
 
 class SheetPainter {
@@ -87,11 +95,11 @@ class SheetPainter {
 
   void paint_labels() {
     const auto &across = sheet_.x, &upwards = sheet_.y;
-    for (int i = 0; i < columns_; i += label_stride(across, pitch_, true))
+    const double size = label_size(across, pitch_);
+    for (int i = 0; i < columns_; i += label_stride(widest(across) * size / small_size, pitch_))
       canvas_.text(across[static_cast<std::size_t>(i)],
-                   {left(i) + sheet_.tile / 2.0, top(0) + sheet_.tile + 1.4 * small_size},
-                   {small_size, ink, Align::centre});
-    for (int j = 0; j < rows_; j += label_stride(upwards, pitch_, false))
+                   {left(i) + sheet_.tile / 2.0, top(0) + sheet_.tile + 1.4 * small_size}, {size, ink, Align::centre});
+    for (int j = 0; j < rows_; j += label_stride(1.2 * small_size, pitch_))
       canvas_.text(upwards[static_cast<std::size_t>(j)], {left_ - 16.0, top(j) + sheet_.tile / 2.0 + small_size / 3.4},
                    {small_size, ink, Align::right});
   }

@@ -61,6 +61,12 @@ int levels_to_split(double edge, std::size_t triangles, double wavelength, const
   return levels;
 }
 
+double most_tessellated(const TessellationRequest& request, double finest, double shape) {
+  const double begun = request.flat ? shape : finest;
+  if (request.detail) return begun * std::pow(4.0, *request.detail);
+  return std::max(begun, static_cast<double>(most_triangles));
+}
+
 namespace {
 
 /// The levels of the run and those that the colours need beyond.

@@ -41,6 +41,8 @@ std::vector<Attribute> kept_attributes(std::vector<Attribute> attributes);
 /// How often triangles of this edge are split for smooth colours, or as often as asked. Error(Fault::usage) for a
 /// detail that makes more than 30 million triangles.
 int levels_to_split(double edge, std::size_t triangles, double wavelength, const std::optional<int>& detail);
+/// At most, where the run has `finest` triangles on a surface of `shape` triangles.
+double most_tessellated(const TessellationRequest& request, double finest, double shape);
 /// What formulas of layers read beside positions and fields; `shape` has the attributes of `t`.
 void take_rest(const CoatFields& fields, const TriangleMesh& shape, const TessellationRequest& request,
                Tessellation& t);

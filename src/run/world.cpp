@@ -1,6 +1,7 @@
 #include "run/world.h"
 
 #include "pelage/error.h"
+#include "run/forecast.h"
 #include "run/stage_progress.h"
 #include "shape/tet_mesh.h"
 
@@ -8,8 +9,8 @@ namespace pelage {
 
 namespace {
 
-/// A finer mesh would need more than the memory of common machines: about 2 kB per Loop vertex.
-constexpr std::size_t max_triangles = 8'000'000;
+/// Where memory is no limit: what isotropic_mesh makes at most.
+constexpr std::size_t max_triangles = 100'000'000;
 
 std::shared_ptr<const TetMesh> volume_of(const Program& program) {
   const auto* volume = as<TetMesh>(program.nodes);
@@ -26,6 +27,7 @@ std::shared_ptr<const TriangleMesh> surface_of(const Program& program) {
 }  // namespace
 
 World::World(std::shared_ptr<const Program> program, const Progress& progress) : program_(std::move(program)) {
+  require_memory(*program_);
   const TriangleMesh& shape = *program_->shape;
   surface_ = unmoved_surface();
   report(progress, "refining", 0);

@@ -14,7 +14,7 @@ namespace pelage {
 
 class World {
  public:
-  /// Refines the shape and makes the space on it. Error(Fault::input) where that needs too many triangles.
+  /// Refines the shape and makes the space on it. Error(Fault::numerics) where that needs too much memory (forecast.h).
   explicit World(std::shared_ptr<const Program> program, const Progress& progress = {});
   /// A space at rest that is not one of a mesh.
   explicit World(std::shared_ptr<const Space> space) : space_(std::move(space)) {}
