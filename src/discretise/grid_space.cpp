@@ -536,7 +536,10 @@ bool is_of_sheets(const NodeShape& nodes) {
 
 }  // namespace
 
-constexpr Method grid_method = {
-    .name = "grid", .summary = "on the nodes of a grid", .make_node_space = node_space, .fits = is_of_sheets};
+constexpr Method grid_method = {.name = "grid",
+                                .summary = "on the nodes of a grid",
+                                .make_node_space = node_space,
+                                .fits = is_of_sheets,
+                                .memory = {180, 60}};
 
 }  // namespace pelage

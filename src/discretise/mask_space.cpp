@@ -229,6 +229,7 @@ constexpr Method mask_method = {.name = "masks",
                                 .summary = "on sheets, as Witkin and Kass did it",
                                 .make_node_space = mask_space,
                                 .fits = is_grid,
-                                .symmetric = false};
+                                .symmetric = false,
+                                .memory = {180, 60}};
 
 }  // namespace pelage

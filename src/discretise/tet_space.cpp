@@ -359,7 +359,11 @@ bool is_of_tets(const NodeShape& nodes) { return std::holds_alternative<TetMesh>
 
 }  // namespace
 
-constexpr Method tets_method = {
-    .name = "tets", .summary = "in a volume", .edges = 1.5, .make_node_space = tet_space, .fits = is_of_tets};
+constexpr Method tets_method = {.name = "tets",
+                                .summary = "in a volume",
+                                .edges = 1.5,
+                                .make_node_space = tet_space,
+                                .fits = is_of_tets,
+                                .memory = {1000, 100}};
 
 }  // namespace pelage
