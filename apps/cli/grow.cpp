@@ -153,10 +153,18 @@ Grown coat_of(std::unique_ptr<Run> run, const CoatRequest& request, const Progre
   return grown_coat(fields, shape, request, progress, report);
 }
 
+void record_end(const StageProgram& stage, const std::string& of) {
+  record_value("until" + of, exact_number(stage.until));
+  if (stage.steps) record_value("steps" + of, std::to_string(*stage.steps));
+  record_value("stationary" + of, exact_number(stage.stationary));
+}
+
 /// What the words of the command mean, for the files' own account of themselves.
 void record_meaning(const GrowOptions& options, const Recipe& recipe, const Program& program) {
   record_value("quality", recipe.quality.value);
   for (const Trait& trait : told(traits_of(program))) record_value(trait.name, trait.value);
+  for (const StageProgram& stage : program.stages)
+    record_end(stage, program.stages.size() > 1 ? " of stage " + stage.name : "");
   if (options.recipe && !options.recipe->ends_with(".toml"))
     record_source(*options.recipe, recipe_text(*options.recipe));
 }

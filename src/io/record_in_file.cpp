@@ -27,7 +27,7 @@ std::string in_comments(std::string_view bytes, std::string_view prefix) {
   }
   std::string text;
   for (bytes.remove_prefix(begin); bytes.starts_with(prefix);) {
-    const std::size_t end = std::min(bytes.find('\n'), bytes.size() - 1);
+    const std::size_t end = std::min(bytes.find('\n', prefix.size()), bytes.size() - 1);
     std::string_view line = bytes.substr(prefix.size(), end - prefix.size());
     if (line.ends_with('\r')) line.remove_suffix(1);
     text += line;
