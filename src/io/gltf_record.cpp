@@ -48,7 +48,10 @@ void set_record(tinygltf::Model& model, const std::string& text) {
 }
 
 std::string record_in_gltf(std::string_view bytes) {
-  const Json json = Json::parse(json_of(bytes), nullptr, false);
+  // What is nested more deeply is nothing of ours, and would take the stack of who walks through it.
+  constexpr int deepest = 16;
+  const auto shallow = [](int depth, Json::parse_event_t, Json&) { return depth < deepest; };
+  const Json json = Json::parse(json_of(bytes), shallow, false);
   const Json* at = &json;
   for (const char* key : {"asset", "extras", "pelage"}) {
     if (!at->is_object() || !at->contains(key)) return "";

@@ -34,6 +34,8 @@ Record record_in(const Json& json) {
   for (const Json& input : json.at("inputs"))
     record.inputs.push_back({input.at("name").get<std::string>(), input.at("bytes").get<std::uint64_t>(),
                              input.at("sha256").get<std::string>()});
+  if (std::ranges::any_of(record.inputs, &std::string::empty, &RecordedInput::name))
+    throw Error(Fault::input, "its record is damaged: an input has no name");
   record.values = texts_in(json.at("values"));
   record.texts = texts_in(json.at("texts"));
   return record;

@@ -147,6 +147,19 @@ TEST(Record, CompressedGlbCarriesIt) {
   }
 }
 
+/// Files of others may hold anything: a nesting that is deeper than any stack, names in other places.
+TEST(Record, HostileJson) {
+  const std::string open(1'000'000, '['), close(1'000'000, ']');
+  for (const std::string text : {open, open + close, "{\"asset\":{\"extras\":{\"pelage\":" + open + close + "}}}",
+                                 std::string("{\"asset\":7}"), std::string("[\"asset\"]")}) {
+    EXPECT_THROW(parse_record(record_in_file(text, ".gltf")), Error);
+    EXPECT_THROW(parse_record(text), Error);
+  }
+  Record nameless = awkward();
+  nameless.inputs[0].name = "";
+  EXPECT_THROW(parse_record(record_text(nameless)), Error);
+}
+
 /// What our own readers make of a file does not depend on it.
 TEST(Record, ReadersPassItBy) {
   for (const std::string extension : {".ply", ".obj", ".off", ".glb", ".vtp"}) {
