@@ -34,8 +34,9 @@ class CommandLine {
  public:
   CommandLine() {
     app_.set_version_flag("--version", "pelage " PELAGE_VERSION, "Print the version and exit");
-    app_.formatter(std::make_shared<HelpFormat>());
+    app_.formatter(std::make_shared<HelpFormat>());  // which commands take over when they are added
     app_.footer(examples);
+    commands_ = all_commands(app_);
     for (const Command& command : commands_) {
       if (command.app->get_option_no_throw("--output"))
         command.app->add_flag("--force", force_, "Let an output take the place of a file that is read");
@@ -59,7 +60,7 @@ class CommandLine {
   }
 
   CLI::App app_{"Grows reaction-diffusion coats directly on surfaces.", "pelage"};
-  std::vector<Command> commands_ = all_commands(app_);
+  std::vector<Command> commands_;
   bool force_ = false, no_record_ = false;
 };
 

@@ -150,8 +150,8 @@ TEST(Record, CompressedGlbCarriesIt) {
 /// Files of others may hold anything: a nesting that is deeper than any stack, names in other places.
 TEST(Record, HostileJson) {
   const std::string open(1'000'000, '['), close(1'000'000, ']');
-  for (const std::string text : {open, open + close, "{\"asset\":{\"extras\":{\"pelage\":" + open + close + "}}}",
-                                 std::string("{\"asset\":7}"), std::string("[\"asset\"]")}) {
+  for (const std::string& text : {open, open + close, "{\"asset\":{\"extras\":{\"pelage\":" + open + close + "}}}",
+                                  std::string("{\"asset\":7}"), std::string("[\"asset\"]")}) {
     EXPECT_THROW(parse_record(record_in_file(text, ".gltf")), Error);
     EXPECT_THROW(parse_record(text), Error);
   }

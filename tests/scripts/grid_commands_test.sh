@@ -11,7 +11,7 @@ fail() { echo "FAILED: $1"; failures=$((failures + 1)); }
 
 # grows ARGUMENTS: it does, and every file that is named has something in it.
 grows() {
-  "$pelage" "$@" >log 2>&1 </dev/null || { fail "pelage $*"; tail -2 log; return; }
+  "$pelage" "$@" --no-record >log 2>&1 </dev/null || { fail "pelage $*"; tail -2 log; return; }
   local file
   for file in $(tr ' ,' '\n\n' <<<"$*" | grep -E '^[a-z0-9]+\.(png|exr|vti|vts|vtu|raw|glb|ply|stl)$'); do
     [ -s "$file" ] || fail "pelage $*: no $file"
