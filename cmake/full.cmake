@@ -9,6 +9,8 @@ find_package(embree 3 REQUIRED)
 find_path(STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb REQUIRED)
 find_path(LIBDEFLATE_INCLUDE_DIR libdeflate.h REQUIRED)
 find_library(LIBDEFLATE_LIBRARY deflate REQUIRED)
+find_path(LIBMD_INCLUDE_DIR sha2.h REQUIRED)
+find_library(LIBMD_LIBRARY md REQUIRED)
 find_file(DEJAVU_SANS DejaVuSans.ttf PATHS /usr/share/fonts PATH_SUFFIXES truetype/dejavu dejavu TTF dejavu-sans-fonts REQUIRED)
 find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
 find_library(TINYGLTF_LIBRARY tinygltf REQUIRED)
@@ -27,11 +29,13 @@ set_source_files_properties(src/base/parallel.cpp PROPERTIES COMPILE_DEFINITIONS
 target_link_libraries(pelage_core PRIVATE TBB::tbb)
 
 pelage_library(pelage_io io recipe)  # files and texts
-target_include_directories(pelage_io SYSTEM PRIVATE ${STB_INCLUDE_DIR} ${TINYGLTF_INCLUDE_DIR} ${LIBDEFLATE_INCLUDE_DIR})
+target_include_directories(pelage_io SYSTEM PRIVATE ${STB_INCLUDE_DIR} ${TINYGLTF_INCLUDE_DIR} ${LIBDEFLATE_INCLUDE_DIR}
+  ${LIBMD_INCLUDE_DIR})
 target_link_libraries(pelage_io PUBLIC pelage_core PRIVATE tomlplusplus::tomlplusplus
   $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>  # a header of tinygltf
   $<BUILD_INTERFACE:${TINYGLTF_LIBRARY}> $<INSTALL_INTERFACE:tinygltf>
   $<BUILD_INTERFACE:${LIBDEFLATE_LIBRARY}> $<INSTALL_INTERFACE:deflate>
+  $<BUILD_INTERFACE:${LIBMD_LIBRARY}> $<INSTALL_INTERFACE:md>
   $<BUILD_INTERFACE:pugixml::pugixml> $<INSTALL_INTERFACE:pugixml>)
 foreach(packer draco meshoptimizer)  # optional: without them compressed files are refused by name
   if(TARGET ${packer}::${packer})

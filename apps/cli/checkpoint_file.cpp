@@ -105,7 +105,6 @@ std::vector<std::string> words_to_resume(const std::string& path) {
   fs::current_path(folder, reason);
   if (reason)
     throw Error(Fault::input, "the folder of its run, " + folder + ", cannot be entered: " + reason.message(), {path});
-  drop(words, "--nested", 0);
   drop(words, "--resume", 1);
   if (find_option(words, "--frames") != words.end()) return words;  // which show the growth from its beginning
   words.insert(words.end(), {"--resume", file});

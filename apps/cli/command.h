@@ -17,6 +17,8 @@ struct Command {
   std::function<void()> run;  ///< throws Error
   /// Where the command stands for another one: its words, which take its place.
   std::function<std::vector<std::string>()> stands_for = {};
+  /// Of a command that answers a question: asked after run().
+  std::function<int()> exit_code = {};
 };
 
 Command add_grow(CLI::App& parent);
@@ -34,6 +36,8 @@ Command add_cells(CLI::App& parent);
 Command add_measure(CLI::App& parent);
 Command add_recipes(CLI::App& parent);
 Command add_resume(CLI::App& parent);
+Command add_again(CLI::App& parent);
+Command add_explain(CLI::App& parent);
 Command add_sheet(CLI::App& parent);
 Command add_render(CLI::App& parent);
 Command add_unwrap(CLI::App& parent);

@@ -8,6 +8,7 @@
 #include "base/suggest.h"
 #include "catalog/bind.h"
 #include "catalog/images.h"
+#include "catalog/recipes.h"
 #include "command.h"
 #include "film.h"
 #include "grow_files.h"
@@ -15,12 +16,14 @@
 #include "grown_coat.h"
 #include "input_unit.h"
 #include "io/file_bytes.h"
+#include "io/output_set.h"
 #include "look/grid_picture.h"
 #include "look/solid_tessellation.h"
 #include "look/tessellation.h"
 #include "node_outputs.h"
 #include "pelage/io.h"
 #include "picture_files.h"
+#include "run/checkpoint.h"
 #include "soup_input.h"
 #include "space_time.h"
 #include "text.h"
@@ -169,6 +172,22 @@ Grown coat_of(std::unique_ptr<Run> run, const CoatRequest& request, const Progre
   return grown_coat(fields, shape, request, progress, report);
 }
 
+void record_end(const StageProgram& stage, const std::string& of) {
+  record_value("until" + of, exact_number(stage.until));
+  if (stage.steps) record_value("steps" + of, std::to_string(*stage.steps));
+  record_value("stationary" + of, exact_number(stage.stationary));
+}
+
+/// What the words of the command mean, for the files' own account of themselves.
+void record_meaning(const GrowOptions& options, const Recipe& recipe, const Program& program) {
+  record_value("quality", recipe.quality.value);
+  for (const Trait& trait : told(traits_of(program))) record_value(trait.name, trait.value);
+  for (const StageProgram& stage : program.stages)
+    record_end(stage, program.stages.size() > 1 ? " of stage " + stage.name : "");
+  if (options.recipe && !options.recipe->ends_with(".toml"))
+    record_source(*options.recipe, recipe_text(*options.recipe));
+}
+
 void grow(const GrowOptions& options) {
   const Recipe recipe = make_recipe(options);
   const Plan planned = plan(recipe);
@@ -211,6 +230,7 @@ void grow(const GrowOptions& options) {
   auto run = interruptible("before the growth began; nothing was written", [&] {
     program = std::make_shared<const Program>(bind_plan(planned, file, std::move(images)));
     foresee(*program, request, report);
+    record_meaning(options, recipe, *program);
     return std::make_unique<Run>(program, World(program, progress), progress);
   });
   CheckpointFile saved(options.checkpoint, options.every_minutes);

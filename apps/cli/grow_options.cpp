@@ -608,8 +608,6 @@ void check_inputs(const GrowOptions& options, const Recipe& recipe) {
   if (!options.onto.empty()) check_shape_name(options.onto);
   if (options.nested && !names_grid(recipe.shape))
     throw Error(Fault::usage, "--nested begins on coarser grids, and the shape is no grid; leave it out");
-  if (options.nested && !options.resume.empty())
-    throw Error(Fault::usage, "--nested makes the start of a run, and one that is resumed has begun; leave it out");
   if (!options.resume.empty()) require_file(options.resume);
 }
 

@@ -115,7 +115,7 @@ void restore(Run& run, const std::string& path, GrowReport& report) {
 }
 
 void set_out(Run& run, const GrowOptions& options, const Progress& progress, GrowReport& report) {
-  if (options.nested) begin_nested(run, progress, report);
+  if (options.nested && options.resume.empty()) begin_nested(run, progress, report);
   restore(run, options.resume, report);
   report.warnings(run);
   report.pattern(run);

@@ -3,16 +3,22 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 
 namespace pelage {
 
-/// Is told of the path of every file before it is read, and may throw to prevent it.
-using ReadObserver = std::function<void(const std::string& path)>;
+struct ReadObserver {
+  /// Told of the path of every file before it is read; may throw to prevent it.
+  std::function<void(const std::string& path)> before = {};
+  /// Told of its bytes afterwards.
+  std::function<void(const std::string& path, std::string_view bytes)> after = {};
+};
 
-/// One for the process; an empty one ends the telling. Not to be changed while other threads read.
-void observe_reading(ReadObserver observer);
+/// One for the process; returns the one before. Not to be changed while other threads read.
+ReadObserver observe_reading(ReadObserver observer);
 
-/// To be called by all who open a file for reading.
+/// To be called by all who open a file for reading, and with what they have read.
 void note_reading(const std::string& path);
+void note_read(const std::string& path, std::string_view bytes);
 
 }  // namespace pelage

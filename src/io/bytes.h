@@ -1,11 +1,13 @@
 #pragma once
-// Appending numbers to the bytes of a file.
+// Numbers in the bytes of a file.
 
 #include <bit>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "base/checked.h"
 #include "pelage/triangle_mesh.h"
@@ -20,6 +22,15 @@ void append_bytes(std::string& bytes, T value) {
   char raw[sizeof(T)];
   std::memcpy(raw, &value, sizeof(T));
   bytes.append(raw, sizeof(T));
+}
+
+/// The little-endian number that begins there; nothing where the bytes end before it does.
+template <class T>
+std::optional<T> bytes_at(std::string_view bytes, std::size_t at) {
+  if (at > bytes.size() || bytes.size() - at < sizeof(T)) return {};
+  T value;
+  std::memcpy(&value, bytes.data() + at, sizeof(T));
+  return value;
 }
 
 /// Appends a value of an attribute as the file has it; it must be one of the type.

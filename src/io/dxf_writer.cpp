@@ -2,6 +2,7 @@
 
 #include "base/ascii.h"
 #include "base/number.h"
+#include "io/output_set.h"
 
 namespace pelage {
 
@@ -86,7 +87,7 @@ void append_line(std::string& text, const Line<PlanePoint>& line, const std::str
 }  // namespace
 
 std::string encode_dxf(const LineDrawing& drawing) {
-  std::string text;
+  std::string text = comment_lines("999\npelage ", record_for_files());
   append_header(text, drawing);
   append_layers(text, drawing);
   append(text, 0, "SECTION");

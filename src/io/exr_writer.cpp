@@ -8,6 +8,7 @@
 
 #include "io/atomic_file.h"
 #include "io/bytes.h"
+#include "io/output_set.h"
 #include "io/zlib.h"
 #include "pelage/error.h"
 
@@ -84,6 +85,8 @@ std::string header_of(const std::vector<std::string>& names, const std::vector<s
   append_attribute(bytes, "dataWindow", "box2i", window);
   append_attribute(bytes, "displayWindow", "box2i", window);
   append_attribute(bytes, "lineOrder", "lineOrder", joined(rows_downwards));
+  if (const std::string record = record_for_files(); !record.empty())
+    append_attribute(bytes, "pelage", "string", record);
   append_attribute(bytes, "pixelAspectRatio", "float", joined(1.0F));
   append_attribute(bytes, "screenWindowCenter", "v2f", joined(0.0F, 0.0F));
   append_attribute(bytes, "screenWindowWidth", "float", joined(1.0F));

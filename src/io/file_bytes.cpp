@@ -53,10 +53,12 @@ void require_file(const std::string& path) { open_file(path); }
 
 std::string read_file(const std::string& path) {
   note_reading(path);
-  return read_own_file(path);
+  std::string bytes = read_own_file(path);
+  note_read(path, bytes);
+  return bytes;
 }
 
-std::string read_own_file(const std::string& path) {
+std::string read_raw_file(const std::string& path) {
   const File file = open_file(path);
   std::error_code code;
   // The size is a hint for the memory only: what is read counts, so that pipes work too.
@@ -70,6 +72,11 @@ std::string read_own_file(const std::string& path) {
   }
   if (std::ferror(file.get())) fail(path, std::string("cannot be read: ") + std::strerror(errno));
   bytes.resize(size);
+  return bytes;
+}
+
+std::string read_own_file(const std::string& path) {
+  std::string bytes = read_raw_file(path);
   if (bytes.empty()) fail(path, "the file is empty");
   if (const char* name = compression_of(bytes))
     fail(path, std::string("is compressed (") + name + "); unpack it first");

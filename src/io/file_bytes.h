@@ -12,6 +12,9 @@ std::string read_file(const std::string& path);
 /// it (base/read_files.h).
 std::string read_own_file(const std::string& path);
 
+/// The same of any file at all, compressed or empty, of which nobody is told either.
+std::string read_raw_file(const std::string& path);
+
 /// Throws as read_file() does for a path that is no file or cannot be opened.
 void require_file(const std::string& path);
 

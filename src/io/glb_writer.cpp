@@ -17,6 +17,8 @@
 #include "base/suggest.h"
 #include "io/gltf_coat.h"
 #include "io/gltf_document.h"
+#include "io/gltf_record.h"
+#include "io/output_set.h"
 #include "pelage/error.h"
 #include "pelage/io.h"
 #include "shape/split_corners.h"
@@ -469,6 +471,7 @@ std::string encode_glb(const TriangleMesh& original, const GlbOptions& options) 
   if (tangents) mesh.set(corner_tangents(mesh));
   tinygltf::Model model;
   model.asset.generator = "pelage";
+  set_record(model, record_for_files());
   model.buffers.resize(1);
   model.scenes.resize(1);
   model.defaultScene = 0;

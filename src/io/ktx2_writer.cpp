@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "io/bytes.h"
+#include "io/output_set.h"
 
 namespace pelage {
 
@@ -57,6 +58,7 @@ std::string ktx2_bytes(const std::vector<const Pixels*>& levels) {
   std::string facts;
   append_entry(facts, "KTXorientation", "rd");  // to the right and down from the first texel
   append_entry(facts, "KTXwriter", "pelage");
+  if (const std::string record = record_for_files(); !record.empty()) append_entry(facts, "pelage", record);
   std::string bytes("\xABKTX 20\xBB\r\n\x1A\n", 12);
   append_words(bytes, {r8g8b8a8_srgb, bytes_of_type, static_cast<std::uint32_t>(levels[0]->width),
                        static_cast<std::uint32_t>(levels[0]->height), 0, 0, one_face, count, 0});

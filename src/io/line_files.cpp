@@ -5,6 +5,7 @@
 #include "io/bytes.h"
 #include "io/dxf_writer.h"
 #include "io/file_bytes.h"
+#include "io/output_set.h"
 #include "io/svg_writer.h"
 #include "io/vtk_xml.h"
 
@@ -32,7 +33,7 @@ std::vector<std::string> drawing_extensions() { return {".svg", ".dxf"}; }
 std::vector<std::string> space_line_extensions() { return {".obj", ".vtp"}; }
 
 std::string encode_line_obj(const std::vector<SpaceLines>& lines) {
-  std::string text = "# written by pelage\n";
+  std::string text = "# written by pelage\n" + comment_lines("# pelage ", record_for_files());
   std::int32_t first = 1;
   for (const SpaceLines& kind : lines) {
     text += "o " + name_in_obj(kind.name) + "\n";
@@ -75,7 +76,8 @@ std::string encode_line_vtp(const std::vector<SpaceLines>& lines) {
     kind.labels.push_back(of.name);
   }
   const std::vector<Attribute> attributes{kind};
-  std::string text = vtk_head("PolyData") + ">\n<FieldData>\n" + vtk_labels(attributes) + "</FieldData>\n";
+  std::string text =
+      vtk_head("PolyData") + ">\n<FieldData>\n" + vtk_labels(attributes) + vtk_record() + "</FieldData>\n";
   text += "<Piece NumberOfPoints=\"" + std::to_string(points.size()) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
           std::to_string(kind.values.size()) + "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<CellData>\n";
   append_vtk_attribute(text, kind, ColorBits::eight);

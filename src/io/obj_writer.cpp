@@ -6,6 +6,7 @@
 #include "base/checked.h"
 #include "base/srgb.h"
 #include "io/bytes.h"
+#include "io/output_set.h"
 
 namespace pelage {
 
@@ -134,7 +135,7 @@ std::string encode_obj(const PolygonMesh& mesh) {
   const Attribute* color = mesh.find("color");
   if (color && !(color->domain == Domain::vertex && is_color(*color))) color = nullptr;
   const IndexedValues uv = index_values(mesh, "uv"), normal = index_values(mesh, "normal");
-  std::string text = "# written by pelage\n";
+  std::string text = "# written by pelage\n" + comment_lines("# pelage ", record_for_files());
   for (const FileLink& link : mesh.links)
     if (link.kind == "mtllib") text += "mtllib " + link.file + "\n";
   append_vertices(text, mesh, color);

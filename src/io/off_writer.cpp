@@ -5,6 +5,7 @@
 
 #include "base/srgb.h"
 #include "io/bytes.h"
+#include "io/output_set.h"
 
 namespace pelage {
 
@@ -29,6 +30,7 @@ std::string encode_off(const PolygonMesh& mesh) {
   const Attribute* color = find_color(mesh, Domain::vertex);
   const Attribute* face_color = find_color(mesh, Domain::face);
   std::string text = color ? "COFF\n" : "OFF\n";
+  text += comment_lines("# pelage ", record_for_files());
   text += std::to_string(mesh.points.size()) + " " + std::to_string(mesh.face_count()) + " 0\n";
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     for (std::size_t k = 0; k < 3; ++k) {

@@ -8,6 +8,7 @@
 
 #include "base/srgb.h"
 #include "io/bytes.h"
+#include "io/output_set.h"
 #include "shape/split_corners.h"
 
 namespace pelage {
@@ -134,6 +135,7 @@ std::string one_line(std::string text) {
 std::string header(const PolygonMesh& mesh, const std::vector<Column>& columns, const std::vector<Column>& face_columns,
                    const std::vector<List>& lists, bool floats) {
   std::string text = "ply\nformat binary_little_endian 1.0\ncomment written by pelage\n";
+  text += comment_lines("comment pelage ", record_for_files());
   for (const FileLink& link : mesh.links)
     if (link.kind == "TextureFile") text += "comment TextureFile " + one_line(link.file) + "\n";
   for (const Attribute& a : mesh.attributes)

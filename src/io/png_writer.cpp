@@ -12,6 +12,7 @@
 #include "base/srgb.h"
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
+#include "io/output_set.h"
 #include "io/zlib.h"
 #include "pelage/io.h"
 
@@ -107,23 +108,26 @@ void check_size(std::int64_t width, std::int64_t height, std::int64_t pixel_byte
 
 enum class ColorType : char { grey = 0, rgb = 2, rgb_and_alpha = 6 };
 
-std::string file_of(int width, int height, char bits, ColorType type, const std::string& rows) {
+/// `text`: of the file itself, under the keyword "pelage"; or empty.
+std::string file_of(int width, int height, char bits, ColorType type, const std::string& rows,
+                    const std::string& text) {
   std::string header;
   append_number(header, static_cast<std::size_t>(width));
   append_number(header, static_cast<std::size_t>(height));
   header += {bits, static_cast<char>(type), 0, 0, 0};  // the only compression and filters; not interlaced
   std::string file = "\x89PNG\r\n\x1a\n";
   append_chunk(file, "IHDR", header);
+  if (!text.empty()) append_chunk(file, "tEXt", std::string("pelage") + '\0' + text);
   append_chunk(file, "IDAT", zlib_packed(rows));
   append_chunk(file, "IEND", "");
   return file;
 }
 
 /// `path` is for messages.
-std::string encode_png(const Image& image, const std::string& path) {
+std::string encode_png(const Image& image, const std::string& path, const std::string& text) {
   check_picture_size(image.width, image.height, path);
   constexpr char bits = 8;
-  return file_of(image.width, image.height, bits, ColorType::rgb, filtered(image, path));
+  return file_of(image.width, image.height, bits, ColorType::rgb, filtered(image, path), text);
 }
 
 /// Rows of samples, each with its high byte first, less that of the pixel to the left.
@@ -156,9 +160,11 @@ std::string deep_png_bytes(const Image& image, const std::string& path) {
   require_picture(image, path);
   const auto samples = static_cast<std::size_t>(channels) * static_cast<std::size_t>(image.width);
   return file_of(image.width, image.height, deep_bits, ColorType::rgb,
-                 deep_rows(samples, static_cast<std::size_t>(image.height), channels, [&](std::size_t i) {
-                   return static_cast<std::uint16_t>(std::lround(65535 * srgb_from_linear(image.rgb[i])));
-                 }));
+                 deep_rows(samples, static_cast<std::size_t>(image.height), channels,
+                           [&](std::size_t i) {
+                             return static_cast<std::uint16_t>(std::lround(65535 * srgb_from_linear(image.rgb[i])));
+                           }),
+                 record_for_files());
 }
 
 std::string grey_png_bytes(int width, int height, const std::vector<std::uint16_t>& grey, const std::string& path) {
@@ -166,28 +172,34 @@ std::string grey_png_bytes(int width, int height, const std::vector<std::uint16_
   check_size(width, height, 2, path);
   return file_of(width, height, deep_bits, ColorType::grey,
                  deep_rows(static_cast<std::size_t>(width), static_cast<std::size_t>(height), 1,
-                           [&](std::size_t i) { return grey[i]; }));
+                           [&](std::size_t i) { return grey[i]; }),
+                 record_for_files());
 }
 
-std::string png_bytes(const Image& image) { return encode_png(image, ""); }
+std::string png_bytes(const Image& image) { return encode_png(image, "", ""); }
 
 namespace {
 
-std::string encode_png(const Pixels& pixels, const std::string& path) {
+std::string encode_png(const Pixels& pixels, const std::string& path, const std::string& text) {
   assert(std::ssize(pixels.bytes) == std::ptrdiff_t{pixels.channels} * pixels.width * pixels.height);
   check_size(pixels.width, pixels.height, pixels.channels, path);
   const ColorType type = pixels.channels == 1   ? ColorType::grey
                          : pixels.channels == 3 ? ColorType::rgb
                                                 : ColorType::rgb_and_alpha;
-  return file_of(pixels.width, pixels.height, 8, type, filtered(pixels));
+  return file_of(pixels.width, pixels.height, 8, type, filtered(pixels), text);
 }
 
 }  // namespace
 
-std::string png_bytes(const Pixels& pixels) { return encode_png(pixels, ""); }
-void write_png(const Pixels& pixels, const std::string& path) { write_file(path, encode_png(pixels, path)); }
+std::string png_bytes(const Pixels& pixels) { return encode_png(pixels, "", ""); }  // it may become a part of a file
 
-void write_png(const Image& image, const std::string& path) { write_file(path, encode_png(image, path)); }
+void write_png(const Pixels& pixels, const std::string& path) {
+  write_file(path, encode_png(pixels, path, record_for_files()));
+}
+
+void write_png(const Image& image, const std::string& path) {
+  write_file(path, encode_png(image, path, record_for_files()));
+}
 
 void check_picture_path(const std::string& path) {
   if (lower_extension(path) != ".png")

@@ -4,6 +4,7 @@
 
 #include "base/number.h"
 #include "base/srgb.h"
+#include "io/output_set.h"
 #include "io/vtk_xml.h"
 #include "io/xml_text.h"
 
@@ -74,6 +75,8 @@ std::string encode_svg(const LineDrawing& drawing) {
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" +
                      width + unit + "\" height=\"" + height + unit + "\" viewBox=\"0 0 " + width + " " + height +
                      "\">\n";
+  if (const std::string record = record_for_files(); !record.empty())
+    text += "<metadata id=\"pelage\">" + escape_xml(record) + "</metadata>\n";
   for (std::size_t i = 0; i < drawing.parts.size(); ++i)
     append_part(text, drawing.parts[i], i == 0 ? "outline" : "lines" + std::to_string(i), paper);
   return text + "</svg>\n";

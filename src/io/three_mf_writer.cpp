@@ -9,6 +9,7 @@
 #include "base/box.h"
 #include "base/srgb.h"
 #include "io/bytes.h"
+#include "io/output_set.h"
 #include "io/ply_writer.h"
 #include "io/xml_text.h"
 #include "io/zip.h"
@@ -150,11 +151,15 @@ std::string placement(const TriangleMesh& mesh, double factor, UpAxis up) {
 std::string model_of(const TriangleMesh& mesh, const std::string& name, UpAxis up) {
   const Scale scale = scale_of(mesh);
   const Attribute* color = mesh.find("color");
+  const std::string record = record_for_files();
   std::string text = xml;
   text += "<model unit=\"" + std::string(scale.unit) +
           "\" xml:lang=\"en-US\" xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\" "
-          "xmlns:m=\"http://schemas.microsoft.com/3dmanufacturing/material/2015/02\">\n"
-          "<metadata name=\"Application\">pelage</metadata>\n<resources>\n";
+          "xmlns:m=\"http://schemas.microsoft.com/3dmanufacturing/material/2015/02\"" +
+          (record.empty() ? "" : " xmlns:pelage=\"urn:pelage\"") +
+          ">\n<metadata name=\"Application\">pelage</metadata>\n";
+  if (!record.empty()) text += "<metadata name=\"pelage:record\">" + escape_xml(record) + "</metadata>\n";
+  text += "<resources>\n";
   std::string attributes = " name=\"" + escape_xml(name) + "\" type=\"model\"";
   if (color && is_color(*color)) {
     const ColorTable colors(mesh, *color);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/vertex_colors.h"
+#include "io/vtk_xml.h"
 
 namespace pelage {
 
@@ -88,7 +89,8 @@ void VtkAttributes::read_field_data(
   for (const pugi::xml_node parent : {data, document_.root()})
     for (const pugi::xml_node array : parent.child("FieldData").children()) {
       const std::string name = array.attribute("Name").as_string();
-      if (!take(array, name) && !take_common(array, name, attributes, metres_per_unit) && name != "TimeValue")
+      if (!take(array, name) && !take_common(array, name, attributes, metres_per_unit) && name != "TimeValue" &&
+          name != vtk_record_name)
         note("left-out", "the field data \"" + name + "\" are left out");
     }
 }

@@ -43,7 +43,7 @@ void append_field_data(std::string& text, const Grid& grid, bool with_points) {
                      packed({grid.periodic.begin(), grid.periodic.end()}, NumberType::int8), 1);
     if (with_points) append_vtk_array(data, "Float64", "period", 3, packed(periods(grid), NumberType::float64), 3);
   }
-  data += vtk_unit(grid.metres_per_unit);
+  data += vtk_unit(grid.metres_per_unit) + vtk_record();
   if (!data.empty()) text += "<FieldData>\n" + data + "</FieldData>\n";
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/srgb.h"
 #include "io/bytes.h"
+#include "io/output_set.h"
 #include "io/xml_text.h"
 
 namespace pelage {
@@ -94,19 +95,31 @@ std::string vtk_point_data_tag(std::span<const Attribute> attributes) {
   return tag + ">\n";
 }
 
+namespace {
+
+std::string string_array(const std::string& name, std::span<const std::string> strings) {
+  std::string text = "<Array type=\"String\" Name=\"" + escape_xml(name) + "\" NumberOfTuples=\"" +
+                     std::to_string(strings.size()) + "\" format=\"ascii\">";
+  for (const std::string& string : strings) {
+    for (unsigned char c : string) text += std::to_string(static_cast<int>(c)) + " ";
+    text += "0 ";
+  }
+  return text + "</Array>\n";
+}
+
+}  // namespace
+
 std::string vtk_labels(std::span<const Attribute> attributes) {
   std::string text;
   for (const Attribute& a : attributes) {
-    if (a.labels.empty()) continue;
-    text += "<Array type=\"String\" Name=\"" + escape_xml(a.name) + "_labels\" NumberOfTuples=\"" +
-            std::to_string(a.labels.size()) + "\" format=\"ascii\">";
-    for (const std::string& label : a.labels) {
-      for (unsigned char c : label) text += std::to_string(static_cast<int>(c)) + " ";
-      text += "0 ";
-    }
-    text += "</Array>\n";
+    if (!a.labels.empty()) text += string_array(a.name + "_labels", a.labels);
   }
   return text;
+}
+
+std::string vtk_record() {
+  const std::string record = record_for_files();
+  return record.empty() ? "" : string_array(vtk_record_name, {&record, 1});
 }
 
 std::string vtk_unit(const std::optional<double>& metres_per_unit) {

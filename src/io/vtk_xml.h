@@ -44,6 +44,10 @@ std::string vtk_labels(std::span<const Attribute> attributes);
 /// The unit as field data `metres_per_unit`; empty where nothing is known.
 std::string vtk_unit(const std::optional<double>& metres_per_unit);
 
+/// The record of the command as a string in field data; empty where there is none.
+inline constexpr const char* vtk_record_name = "pelage";
+std::string vtk_record();
+
 /// The element Points: Float32 where that changes no number, else Float64.
 void append_vtk_points(std::string& text, const std::vector<Point>& points);
 

@@ -52,8 +52,8 @@ void append_vertices(std::string& text, std::size_t count) {
 std::string encode_vtp(const PolygonMesh& original) {
   const PolygonMesh mesh = split_corners(original);
   std::string text = vtk_head("PolyData") + ">\n";
-  const std::string labels = vtk_labels(mesh.attributes);
-  if (!labels.empty()) text += "<FieldData>\n" + labels + "</FieldData>\n";
+  const std::string data = vtk_labels(mesh.attributes) + vtk_record();
+  if (!data.empty()) text += "<FieldData>\n" + data + "</FieldData>\n";
   const std::size_t vertices = mesh.face_ends.empty() ? mesh.points.size() : 0;
   text += "<Piece NumberOfPoints=\"" + std::to_string(mesh.points.size()) + "\" NumberOfVerts=\"" +
           std::to_string(vertices) + "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +

@@ -27,7 +27,7 @@ void append_cells(std::string& text, const TetMesh& volume) {
 std::string vtu_bytes(const TetMesh& volume) {
   require_finite(volume.points, volume.attributes);
   std::string text = vtk_head("UnstructuredGrid") + ">\n";
-  const std::string data = vtk_labels(volume.attributes) + vtk_unit(volume.metres_per_unit);
+  const std::string data = vtk_labels(volume.attributes) + vtk_unit(volume.metres_per_unit) + vtk_record();
   if (!data.empty()) text += "<FieldData>\n" + data + "</FieldData>\n";
   text += "<Piece NumberOfPoints=\"" + std::to_string(volume.points.size()) + "\" NumberOfCells=\"" +
           std::to_string(volume.tets.size()) + "\">\n" + vtk_point_data_tag(volume.attributes);

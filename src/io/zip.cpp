@@ -43,6 +43,19 @@ std::string facts_of(const ZipEntry& entry, const std::string& packed) {
   return facts;
 }
 
+std::optional<std::string> inflated(std::string_view packed, std::size_t size) {
+  constexpr std::size_t most = 1032;  // bytes that deflate makes of one
+  if (size / most > packed.size()) return {};
+  const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> decompressor(
+      libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
+  if (!decompressor) throw std::bad_alloc();
+  std::string out(size, '\0');
+  const libdeflate_result result =
+      libdeflate_deflate_decompress(decompressor.get(), packed.data(), packed.size(), out.data(), size, nullptr);
+  if (result != LIBDEFLATE_SUCCESS) return {};
+  return out;
+}
+
 }  // namespace
 
 std::string zip_archive(const std::vector<ZipEntry>& entries) {
@@ -66,6 +79,20 @@ std::string zip_archive(const std::vector<ZipEntry>& entries) {
   append_bytes(archive, begin);
   append_bytes(archive, std::uint16_t{0});  // no comment
   return archive;
+}
+
+std::optional<std::string> zip_entry(std::string_view archive, std::string_view name) {
+  constexpr std::size_t head = 30;
+  for (std::size_t at = 0; archive.size() - at > head && archive.substr(at).starts_with("PK\3\4");) {
+    const std::size_t packed = *bytes_at<std::uint32_t>(archive, at + 18),
+                      size = *bytes_at<std::uint32_t>(archive, at + 22),
+                      letters = *bytes_at<std::uint16_t>(archive, at + 26),
+                      begin = at + head + letters + *bytes_at<std::uint16_t>(archive, at + 28);
+    if (begin > archive.size() || packed > archive.size() - begin) return {};
+    if (archive.substr(at + head, letters) == name) return inflated(archive.substr(begin, packed), size);
+    at = begin + packed;
+  }
+  return {};
 }
 
 }  // namespace pelage

@@ -217,6 +217,7 @@ std::string read_text(const std::string& path) {
   text.resize(std::fread(text.data(), 1, text.size(), file.get()));
   if (std::ferror(file.get())) throw Error(Fault::input, "cannot be read to its end", {path});
   if (text.size() > largest_file) throw Error(Fault::input, "is larger than 1 MB; this is no model or recipe", {path});
+  note_read(path, text);
   return text;
 }
 

@@ -154,6 +154,11 @@ Traits traits_of(const Program& program) {
   return t;
 }
 
+Traits told(Traits traits) {
+  std::erase_if(traits, [](const Trait& t) { return is_hash(t.value) || t.value.find("none") != std::string::npos; });
+  return traits;
+}
+
 std::string difference(const Traits& checkpoint, const Traits& run) {
   for (std::size_t k = 0; k < std::min(checkpoint.size(), run.size()); ++k) {
     const Trait &there = checkpoint[k], &here = run[k];

@@ -24,6 +24,9 @@ using Traits = std::vector<Trait>;
 /// stationary) is not among them: a run may go on for longer than it was meant to.
 Traits traits_of(const Program& program);
 
+/// Those that are told in words and are there.
+Traits told(Traits traits);
+
 /// The first that differs, "seed 1 instead of 2"; empty where none does.
 std::string difference(const Traits& checkpoint, const Traits& run);
 

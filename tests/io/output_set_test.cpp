@@ -94,7 +94,7 @@ TEST(OutputSet, NoTwoOutputsAndNoInputAreTheSameFile) {
 TEST(OutputSet, ForceReplacesInputs) {
   const fs::path folder = test::fresh_folder(), a = folder / "a";
   write_file(a.string(), "old");
-  OutputSet set(true);
+  OutputSet set({.may_replace_inputs = true});
   expect_output(a.string());
   write_file(a.string(), read_file(a.string()) + " and new");
   set.publish();

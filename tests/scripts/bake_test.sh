@@ -26,7 +26,7 @@ sheet() {
     }
   }'
 }
-bakes() { "$pelage" grow "$@" --model turing --size 0.15 --quality draft --steps 30 >out 2>err || { cat err; fail "$*"; }; }
+bakes() { "$pelage" grow "$@" --no-record --model turing --size 0.15 --quality draft --steps 30 >out 2>err || { cat err; fail "$*"; }; }
 refused() {
   local code=$1 text=$2
   shift 2

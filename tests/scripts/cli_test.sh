@@ -471,7 +471,7 @@ cmp one.ply two.ply || fail "1 and 2 threads give different files"
 succeed "${grown[@]}" --steps 40 --checkpoint state -o forty.ply
 succeed "${grown[@]}" --steps 100 --resume state -o resumed.ply
 cmp one.ply resumed.ply || fail "a resumed run gives a different file"
-cmp -s one.ply forty.ply && fail "40 and 100 steps give the same file: the comparison shows nothing"
+cmp -s <(grep -av 'comment pelage' one.ply) <(grep -av 'comment pelage' forty.ply) && fail "40 and 100 steps give the same file: the comparison shows nothing"
 expect 3 'state: .*another run' grow $sphere "${quick[@]}" --resume state -o a.ply
 
 # --- the artist's mesh comes back ------------------------------------------------------------------------------

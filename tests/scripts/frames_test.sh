@@ -8,7 +8,7 @@ work=$2/frames_test
 rm -rf "$work" && mkdir -p "$work" && cd "$work" || exit 1
 failures=0
 fail() { echo "FAILED: $1"; failures=$((failures + 1)); }
-coat() { "$pelage" grow builtin:sphere?n=162 --size 0.2 --picture-size 64 -q "$@"; }
+coat() { "$pelage" grow builtin:sphere?n=162 --size 0.2 --picture-size 64 -q --no-record "$@"; }
 
 # refused WORDS ARGUMENTS: exit code 2, these words, and no file.
 refused() {
