@@ -9,12 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "command.h"
+#include "commands.h"
 #include "help_format.h"
 #include "interrupt.h"
 #include "invocation.h"
 #include "io/output_set.h"
 #include "pelage/error.h"
+#include "pelage/named_files.h"
 #include "text.h"
 #include "usage.h"
 
@@ -46,30 +47,14 @@ int exit_code_of(Fault fault) {
   return fault == Fault::cancelled && signal ? 128 + signal : static_cast<int>(fault);
 }
 
-std::vector<pelage::Command> all_commands(CLI::App& app) {
-  return {pelage::add_grow(app),     pelage::add_resume(app),  pelage::add_check(app), pelage::add_models(app),
-          pelage::add_formulas(app), pelage::add_analyse(app), pelage::add_map(app),   pelage::add_gallery(app),
-          pelage::add_sheet(app),    pelage::add_recipes(app), pelage::add_fair(app),  pelage::add_field(app),
-          pelage::add_compare(app),  pelage::add_grid(app),    pelage::add_cells(app), pelage::add_measure(app),
-          pelage::add_unwrap(app),   pelage::add_render(app),  pelage::add_verify(app)};
-}
-
-/// For every command that writes.
-void add_force(const std::vector<pelage::Command>& commands, bool& force) {
-  for (const pelage::Command& command : commands)
-    if (command.app->get_option_no_throw("--output"))
-      command.app->add_flag("--force", force, "Let an output take the place of a file that is read");
-}
-
 /// Its outputs appear together at its end, or not at all. Returns the exit code.
 int run_command(std::vector<std::string> words) {
   CLI::App app("Grows reaction-diffusion coats directly on surfaces.", "pelage");
   app.set_version_flag("--version", "pelage " PELAGE_VERSION, "Print the version and exit");
   app.formatter(std::make_shared<pelage::HelpFormat>());
   app.footer(examples);
-  const std::vector<pelage::Command> commands = all_commands(app);
-  bool force = false;
-  add_force(commands, force);
+  pelage::CommonOptions common;
+  const std::vector<pelage::Command> commands = add_commands(app, common);
   if (words.empty()) {
     std::fputs(app.help().c_str(), stderr);
     return static_cast<int>(Fault::usage);
@@ -83,7 +68,8 @@ int run_command(std::vector<std::string> words) {
   const pelage::Command& command = *used;
   if (command.stands_for) return run_command(command.stands_for());
   pelage::set_invocation({std::move(words), std::filesystem::current_path().string()});
-  pelage::OutputSet outputs(force);
+  pelage::allow_outside_files(common.outside);
+  pelage::OutputSet outputs(common.force);
   command.run();
   outputs.publish();
   return 0;

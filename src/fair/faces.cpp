@@ -33,6 +33,10 @@ FaceLists collect(std::size_t count, MakeList&& make_list) {
 constexpr std::size_t many_around = 64;
 constexpr int reach = 16;
 
+/// A disc has about ten faces where they are even, and no more than this where the mesh changes from large to very
+/// small ones: those that are found first, which are the nearest in edges. The work grows with the square.
+constexpr std::size_t most_in_disc = 256;
+
 /// The faces near f around its corner k.
 void append_near(const Topology& topology, std::size_t f, int k, std::vector<Index>& list) {
   const auto first = static_cast<Index>(3 * f);
@@ -109,9 +113,11 @@ FaceLists discs(const FaceLists& neighbour, const std::vector<Vector3>& centroid
   return collect(neighbour.size(), [&](std::size_t f, std::vector<Index>& list) {
     list.push_back(static_cast<Index>(f));
     for (std::size_t k = 0; k < list.size(); ++k)
-      for (Index g : neighbour[list[k]])
+      for (Index g : neighbour[list[k]]) {
+        if (list.size() == most_in_disc) return;
         if ((centroid[g] - centroid[f]).norm() <= radius[f] && std::find(list.begin(), list.end(), g) == list.end())
           list.push_back(g);
+      }
   });
 }
 
