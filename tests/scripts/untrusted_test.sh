@@ -87,9 +87,9 @@ for words in "grow builtin:sphere --recipe deep.toml -o x.ply" "grow deep.toml -
   # shellcheck disable=SC2086
   refused 2 "deep.toml:1: .*64 deep" $words
 done
-times '[species.u%d]\nrate = "-u"\n' 200 >species.toml
+{ echo 'name = "m"'; times '[species.u%d]\nrate = "-1"\n' 200; } >species.toml
 refused 2 "species.toml:1:1: .*200 species; at most 100" models species.toml
 { printf 'outline = {points = ['; times '[%d, 0], ' 20000; echo ']}'; } >outline.toml
 refused 2 "outline.toml:1:.*20000 pieces; at most 10000" grid outline.toml -o x.vts
 { printf '[[thing]]\nshape = "builtin:sphere?n=20000"\nplaces = ['; times '{at=[%d,0,0]},' 1000; echo ']'; } >scene.toml
-refused 2 "scene.toml:1:1: .*20000000 triangles" render scene.toml -o x.png
+refused 2 "scene.toml:1:1: .*has to stay below 20000000" render scene.toml -o x.png
