@@ -43,11 +43,11 @@ asan: setup  ## every test under the address and undefined-behaviour sanitizers
 	@$(CMAKE_BUILD) asan
 	@ctest --preset asan --parallel $(JOBS)
 
-fuzz:  ## ten minutes of random bytes for every reader; what crashes one stays in build/fuzz/found
+fuzz:  ## random bytes for every reader, SECONDS (30) for each, or for READERS="png recipe"; finds stay in build/fuzz/found
 	@sh tools/setup.sh clang
 	@cmake --preset fuzz
 	@$(CMAKE_BUILD) fuzz --target input_fuzzer
-	@sh tools/fuzz.sh 50
+	@sh tools/fuzz.sh $(or $(SECONDS),30) $(READERS)
 
 format:  ## bring all sources into the house's format
 	@clang-format -i $(CXX_FILES)

@@ -6,7 +6,11 @@ find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(pugixml REQUIRED)
 find_package(embree 3 REQUIRED)
-find_path(STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb REQUIRED)
+find_path(STB_INCLUDE_DIR stb_truetype.h PATH_SUFFIXES stb REQUIRED)
+find_path(SPNG_INCLUDE_DIR spng.h REQUIRED)
+find_library(SPNG_LIBRARY spng REQUIRED)
+find_path(TURBOJPEG_INCLUDE_DIR turbojpeg.h REQUIRED)
+find_library(TURBOJPEG_LIBRARY turbojpeg REQUIRED)
 find_path(LIBDEFLATE_INCLUDE_DIR libdeflate.h REQUIRED)
 find_library(LIBDEFLATE_LIBRARY deflate REQUIRED)
 find_path(LIBMD_INCLUDE_DIR sha2.h REQUIRED)
@@ -29,13 +33,15 @@ set_source_files_properties(src/base/parallel.cpp PROPERTIES COMPILE_DEFINITIONS
 target_link_libraries(pelage_core PRIVATE TBB::tbb)
 
 pelage_library(pelage_io io recipe)  # files and texts
-target_include_directories(pelage_io SYSTEM PRIVATE ${STB_INCLUDE_DIR} ${TINYGLTF_INCLUDE_DIR} ${LIBDEFLATE_INCLUDE_DIR}
-  ${LIBMD_INCLUDE_DIR})
+target_include_directories(pelage_io SYSTEM PRIVATE ${TINYGLTF_INCLUDE_DIR} ${LIBDEFLATE_INCLUDE_DIR} ${SPNG_INCLUDE_DIR}
+  ${TURBOJPEG_INCLUDE_DIR} ${LIBMD_INCLUDE_DIR})
 target_link_libraries(pelage_io PUBLIC pelage_core PRIVATE tomlplusplus::tomlplusplus
   $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>  # a header of tinygltf
   $<BUILD_INTERFACE:${TINYGLTF_LIBRARY}> $<INSTALL_INTERFACE:tinygltf>
   $<BUILD_INTERFACE:${LIBDEFLATE_LIBRARY}> $<INSTALL_INTERFACE:deflate>
   $<BUILD_INTERFACE:${LIBMD_LIBRARY}> $<INSTALL_INTERFACE:md>
+  $<BUILD_INTERFACE:${SPNG_LIBRARY}> $<INSTALL_INTERFACE:spng>
+  $<BUILD_INTERFACE:${TURBOJPEG_LIBRARY}> $<INSTALL_INTERFACE:turbojpeg>
   $<BUILD_INTERFACE:pugixml::pugixml> $<INSTALL_INTERFACE:pugixml>)
 foreach(packer draco meshoptimizer)  # optional: without them compressed files are refused by name
   if(TARGET ${packer}::${packer})
@@ -78,16 +84,20 @@ target_sources(pelage_look PRIVATE ${font_cpp})
 
 # --- the command line -----------------------------------------------------------------------------------
 file(GLOB cli_sources CONFIGURE_DEPENDS apps/cli/*.cpp)
+list(REMOVE_ITEM cli_sources ${PROJECT_SOURCE_DIR}/apps/cli/main.cpp)
 if(cli_sources)
-  add_executable(pelage_cli ${cli_sources})
-  set_target_properties(pelage_cli PROPERTIES OUTPUT_NAME pelage)
+  # All but main(), which the test of random command lines (tests/fuzz) uses, too.
+  add_library(pelage_commands OBJECT ${cli_sources})
   # CLI11 and nlohmann-json cost a compiler ten seconds in every source that includes them; hence several sources at once.
   if(NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
-    set_target_properties(pelage_cli PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 9)
+    set_target_properties(pelage_commands PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 9)
   endif()
-  target_include_directories(pelage_cli PRIVATE src)
-  target_compile_definitions(pelage_cli PRIVATE PELAGE_VERSION="${PROJECT_VERSION}")
-  target_link_libraries(pelage_cli PRIVATE pelage pelage_render CLI11::CLI11 nlohmann_json::nlohmann_json Eigen3::Eigen pelage_flags)
+  target_include_directories(pelage_commands PUBLIC src apps/cli)
+  target_compile_definitions(pelage_commands PUBLIC PELAGE_VERSION="${PROJECT_VERSION}")
+  target_link_libraries(pelage_commands PUBLIC pelage pelage_render CLI11::CLI11 nlohmann_json::nlohmann_json Eigen3::Eigen pelage_flags)
+  add_executable(pelage_cli apps/cli/main.cpp)
+  set_target_properties(pelage_cli PROPERTIES OUTPUT_NAME pelage)
+  target_link_libraries(pelage_cli PRIVATE pelage_commands)
   install(TARGETS pelage_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 

@@ -12,7 +12,7 @@ ORDER = "base < linalg shape react recipe < discretise io print < time fair dire
 RANK = {layer: rank for rank, group in enumerate(ORDER.split("<")) for layer in group.split()}
 
 # The public headers belong to the layer that implements them.
-PUBLIC = {"error": "base", "channel": "base", "point": "base", "progress": "base", "triangle_mesh": "shape", "polygon_mesh": "shape",
+PUBLIC = {"error": "base", "channel": "base", "named_files": "base", "point": "base", "progress": "base", "triangle_mesh": "shape", "polygon_mesh": "shape",
           "up_axis": "shape", "image": "shape", "texture_maps": "shape", "grid": "shape", "atlas": "shape", "cells": "shape",
           "tet_mesh": "shape", "node_shape": "shape",
           "unwrap": "unwrap", "finding": "shape", "stability": "react", "recipe": "recipe", "io": "io", "fair": "fair", "field": "direction",
@@ -22,7 +22,8 @@ INCLUDE = re.compile(r'\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 # Where headers belong that are neither of the C++ standard library nor of Eigen: those whose names begin like this, in
 # files whose paths begin like that.
 OUTSIDE = {"tbb/": ["src/base/parallel.cpp"], "toml++/": ["src/recipe/document.cpp"], "tiny_gltf.h": ["src/io/"],
-           "stb_image": ["src/io/"], "libdeflate.h": ["src/io/png_writer.cpp", "src/io/zip.cpp", "src/io/zlib.cpp"],
+           "spng.h": ["src/io/png_reader.cpp"], "turbojpeg.h": ["src/io/jpeg_reader.cpp"],
+           "libdeflate.h": ["src/io/png_writer.cpp", "src/io/zip.cpp", "src/io/zlib.cpp"],
            "pugixml.hpp": ["src/io/vtk_document.", "src/io/record_in_file.cpp"], "stb_truetype.h": ["src/look/text.cpp"], "embree3/": ["src/render/"],
            "unistd.h": ["src/io/", "apps/cli/"], "fcntl.h": ["src/io/"],
            "sys/": ["src/io/temporary_file.cpp", "apps/cli/"], "spawn.h": ["apps/cli/"], "CLI/": ["apps/cli/"], "nlohmann/": ["apps/cli/", "src/io/gltf_", "src/io/record.cpp"],

@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 
 #include "base/memory.h"
-#include "command.h"
+#include "commands.h"
 #include "help_format.h"
 #include "invocation.h"
 #include "pelage/error.h"
+#include "pelage/named_files.h"
 #include "recorded_words.h"
 #include "usage.h"
 
@@ -33,20 +33,6 @@ Exit codes: 0 done; 1 pelage again: another result; 2 wrong usage, unknown name 
 parameter; 3 an input that cannot be read or used; 4 the computation failed; 5 an output
 cannot be written; 130 interrupted.)";
 
-/// Less does not do for anything: the program itself and its threads.
-constexpr double smallest_memory = 1e8;
-
-void add_max_memory(CLI::App& command, double& bytes) {
-  const std::map<std::string, double> units = {
-      {"B", 1}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}, {"GiB", 1024 * 1024 * 1024}, {"TB", 1e12}};
-  command
-      .add_option("--max-memory", bytes,
-                  "Take no more memory than this, such as 4GB (default: what the machine has left)")
-      ->type_name("SIZE")
-      ->transform(CLI::AsNumberWithUnit(units, CLI::AsNumberWithUnit::CASE_INSENSITIVE, "SIZE"))
-      ->check(CLI::Range(smallest_memory, 1e18));
-}
-
 /// What needs more is refused beforehand where that is foreseen, and else fails as on a machine that has no more.
 void take_at_most(double bytes) {
   if (!(bytes > 0)) return;
@@ -57,43 +43,24 @@ void take_at_most(double bytes) {
   setrlimit(RLIMIT_DATA, &limit);
 }
 
-/// All commands, with what those have in common that write.
+/// All commands, and the options that are read with them.
 class CommandLine {
  public:
   CommandLine() {
     app_.set_version_flag("--version", "pelage " PELAGE_VERSION, "Print the version and exit");
     app_.formatter(std::make_shared<HelpFormat>());  // which commands take over when they are added
     app_.footer(examples);
-    commands_ = all_commands(app_);
-    for (const Command& command : commands_) {
-      if (command.app->get_option_no_throw("--output")) {
-        command.app->add_flag("--force", force_, "Let an output take the place of a file that is read");
-        add_max_memory(*command.app, max_memory_);
-      }
-      if (can_be_repeated(command.app->get_name()) || command.app->get_name() == "gallery")
-        command.app->add_flag("--no-record", no_record_,
-                              "Leave out of the files what made them, which pelage explain and again read");
-    }
+    commands_ = add_commands(app_, common_);
   }
 
   const Command& parse(const std::vector<std::string>& words) { return parse_arguments(app_, commands_, words); }
   CLI::App& app() { return app_; }
-  bool force() const { return force_; }
-  bool no_record() const { return no_record_; }
-  double max_memory() const { return max_memory_; }
+  const CommonOptions& common() const { return common_; }
 
  private:
-  static std::vector<Command> all_commands(CLI::App& app) {
-    return {add_grow(app),     add_resume(app),  add_again(app),   add_explain(app), add_check(app), add_models(app),
-            add_formulas(app), add_analyse(app), add_map(app),     add_gallery(app), add_sheet(app), add_recipes(app),
-            add_fair(app),     add_field(app),   add_compare(app), add_grid(app),    add_cells(app), add_measure(app),
-            add_unwrap(app),   add_render(app),  add_verify(app)};
-  }
-
   CLI::App app_{"Grows reaction-diffusion coats directly on surfaces.", "pelage"};
+  CommonOptions common_;
   std::vector<Command> commands_;
-  bool force_ = false, no_record_ = false;
-  double max_memory_ = 0;
 };
 
 Record record_of(const Command& command) {
@@ -130,9 +97,11 @@ int run_command(std::vector<std::string> words) {
   }
   if (used->stands_for) return run_command(used->stands_for());
   set_invocation({std::move(words), std::filesystem::current_path().string()});
-  take_at_most(line.max_memory());
-  OutputSetOptions options{line.force(), {}, {}};
-  if (!line.no_record()) options.record = record_of(*used);
+  const CommonOptions& common = line.common();
+  take_at_most(common.max_memory);
+  allow_outside_files(common.outside);
+  OutputSetOptions options{common.force, {}, {}};
+  if (!common.no_record) options.record = record_of(*used);
   OutputSet outputs(std::move(options));
   used->run();
   outputs.publish();
@@ -148,6 +117,7 @@ void repeat_command(const Repetition& repetition) {
   Record record = record_of(command);
   record.version = repetition.version;
   record.architecture = repetition.architecture;
+  allow_outside_files(line.common().outside);
   OutputSet outputs({false, repetition.confinement, std::move(record)});
   command.run();
   outputs.publish();

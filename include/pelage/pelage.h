@@ -9,6 +9,7 @@
 #include "pelage/field.h"
 #include "pelage/grow.h"
 #include "pelage/io.h"
+#include "pelage/named_files.h"
 #include "pelage/progress.h"
 #include "pelage/recipe.h"
 #include "pelage/render.h"

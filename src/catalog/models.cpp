@@ -141,6 +141,12 @@ ModelSource model(const Value& document) {
     result.definitions.push_back({name, formula(value)});
   });
   for_entries(document, "species", [&](auto& name, auto& value) { result.species.push_back(species(name, value)); });
+  constexpr std::size_t most_species = 100;  // each of them has a derivative by each, and linear theory a matrix of all
+  if (result.species.size() > most_species)
+    throw Error(Fault::usage,
+                "there are " + std::to_string(result.species.size()) + " species; at most " +
+                    std::to_string(most_species) + " are taken",
+                result.where);
   for_entries(document, "variants", [&](auto& name, auto& value) { result.variants.push_back(variant(name, value)); });
   look_of(document);
   document.require_all_read();

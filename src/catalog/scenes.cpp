@@ -123,6 +123,18 @@ bool is_seen(const Attribute& a) {
          std::ranges::any_of(channel_kinds, [&](const ChannelKind& kind) { return kind.attribute == a.name; });
 }
 
+/// Of all things together: 8 GB of a picture's tree and of vertices. A row of "places" asks for more in a few bytes.
+constexpr std::size_t most_triangles = 20000000;
+
+void require_room(const SceneThing& thing, std::size_t triangles, std::size_t before) {
+  const std::size_t all = before + thing.places.size() * triangles;
+  if (all >= most_triangles)
+    throw Error(Fault::usage,
+                "so far the scene has " + std::to_string(all) + " triangles, and has to stay below " +
+                    std::to_string(most_triangles) + "; take fewer places or coarser shapes",
+                thing.where);
+}
+
 void append(const TriangleMesh& coat, const ScenePlace& place, bool framed, BuiltScene& scene) {
   const Eigen::Affine3d motion = motion_of(place);
   const std::size_t before = scene.mesh.points.size(), count = coat.points.size();
@@ -155,9 +167,11 @@ BuiltScene build_scene(const Scene& scene, const std::string& quality, const Pro
   BuiltScene built;
   for (std::size_t i = 0; i < scene.things.size(); ++i) {
     const std::string task = "thing " + std::to_string(i + 1) + " of " + std::to_string(scene.things.size());
+    if (progress && !progress(task, 0)) throw Error(Fault::cancelled, "the scene was cancelled");
     const TriangleMesh coat = coated(scene.things[i], quality, [&](std::string_view, double fraction) {
       return !progress || progress(task, fraction);
     });
+    require_room(scene.things[i], coat.triangles.size(), built.mesh.triangles.size());
     for (const ScenePlace& place : scene.things[i].places) append(coat, place, scene.things[i].framed, built);
   }
   if (built.framed.empty()) built.framed = built.mesh.points;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 
 #include "base/parallel.h"
 #include "shape/normals.h"
@@ -33,6 +34,10 @@ FaceLists collect(std::size_t count, MakeList&& make_list) {
 constexpr std::size_t many_around = 64;
 constexpr int reach = 16;
 
+/// A disc has about ten faces where they are even, and no more than this where the mesh changes from large to very
+/// small ones: those that are found first, which are the nearest in edges. The work grows with the square.
+constexpr std::size_t most_in_disc = 256;
+
 /// The faces near f around its corner k.
 void append_near(const Topology& topology, std::size_t f, int k, std::vector<Index>& list) {
   const auto first = static_cast<Index>(3 * f);
@@ -46,6 +51,25 @@ void append_near(const Topology& topology, std::size_t f, int k, std::vector<Ind
     if (in >= 0) in = previous_halfedge(in);
   }
 }
+
+/// The faces of one disc: four times as many places as there may be faces, each face in the first free one after its
+/// number.
+class DiscMembers {
+ public:
+  DiscMembers() { place_.fill(-1); }
+
+  /// False if it is one already.
+  bool add(Index face) {
+    std::size_t at = static_cast<std::size_t>(face) % place_.size();
+    for (; place_[at] >= 0; at = (at + 1) % place_.size())
+      if (place_[at] == face) return false;
+    place_[at] = face;
+    return true;
+  }
+
+ private:
+  std::array<Index, 4 * most_in_disc> place_;
+};
 
 }  // namespace
 
@@ -107,11 +131,14 @@ FaceLists neighbours(const Topology& topology, const FaceLists& faces_of_vertex)
 
 FaceLists discs(const FaceLists& neighbour, const std::vector<Vector3>& centroid, const std::vector<double>& radius) {
   return collect(neighbour.size(), [&](std::size_t f, std::vector<Index>& list) {
+    DiscMembers members;
     list.push_back(static_cast<Index>(f));
+    members.add(list[0]);
     for (std::size_t k = 0; k < list.size(); ++k)
-      for (Index g : neighbour[list[k]])
-        if ((centroid[g] - centroid[f]).norm() <= radius[f] && std::find(list.begin(), list.end(), g) == list.end())
-          list.push_back(g);
+      for (Index g : neighbour[list[k]]) {
+        if (list.size() == most_in_disc) return;
+        if ((centroid[g] - centroid[f]).norm() <= radius[f] && members.add(g)) list.push_back(g);
+      }
   });
 }
 

@@ -43,7 +43,7 @@ FaceLists faces_of_vertices(const Topology& topology);
 FaceLists neighbours(const Topology& topology, const FaceLists& faces_of_vertex);
 
 /// For every face the faces that are reached through neighbours whose centroids lie within radius[f] of its own, in
-/// the order of the search, itself first.
+/// the order of the search, itself first; at most 256.
 FaceLists discs(const FaceLists& neighbour, const std::vector<Vector3>& centroid, const std::vector<double>& radius);
 
 /// Local distance between the centroids of faces that share an edge, averaged over `rounds` rings of neighbours.

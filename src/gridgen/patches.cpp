@@ -2,11 +2,11 @@
 
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <numbers>
 
+#include "base/named_files.h"
 #include "gridgen/formula_function.h"
 #include "recipe/document.h"
 #include "shape/atlas.h"
@@ -100,8 +100,7 @@ std::vector<Point> bezier_points(const std::array<Point, 16>& control, const Cou
 /// What one [[patch]] describes; several, if it names a file of Bezier patches.
 class PatchReader {
  public:
-  PatchReader(const Value& document, std::string folder, std::int32_t refine)
-      : folder_(std::move(folder)), refine_(refine) {
+  PatchReader(const Value& document, std::int32_t refine) : refine_(refine) {
     if (const Value* all = document.find("nodes")) default_ = read_counts(*all);
     if (const Value* parameters = document.find("parameters"))
       for (const auto& [name, value] : parameters->entries()) numbers_[name] = value->number();
@@ -119,13 +118,12 @@ class PatchReader {
     require_room(nodes, file ? 0 : 1, patches, table.where());
     if (formula) patches.push_back(patch_of(name, nodes, formula_points(*formula, nodes, numbers_)));
     if (bezier) patches.push_back(patch_of(name, nodes, bezier_points(read_control(*bezier), nodes)));
-    if (file) read_file(name, file->string(), nodes, patches);
+    if (file) read_file(name, named_file(file->string(), file->where()), nodes, patches);
   }
 
  private:
-  void read_file(const std::string& name, const std::string& file, const Counts& nodes,
+  void read_file(const std::string& name, const std::string& path, const Counts& nodes,
                  std::vector<Atlas::Patch>& patches) const {
-    const std::string path = (std::filesystem::path(folder_) / file).string();
     std::size_t number = 0;
     const std::vector<std::array<Point, 16>> all = parse_bpt(read_text(path), path);
     require_room(nodes, all.size(), patches, {path});
@@ -133,7 +131,6 @@ class PatchReader {
       patches.push_back(patch_of(name + std::to_string(++number), nodes, bezier_points(control, nodes)));
   }
 
-  std::string folder_;
   std::int32_t refine_;
   Counts default_{33, 33};
   Numbers numbers_{{"pi", std::numbers::pi}};
@@ -204,7 +201,7 @@ Atlas parse_patches(std::string_view text, const std::string& file, std::int32_t
   const Value document = parse_document(text, file);
   document.string_or("name", "");
   document.string_or("summary", "");
-  const PatchReader reader(document, std::filesystem::path(file).parent_path().string(), refine);
+  const PatchReader reader(document, refine);
   std::vector<Atlas::Patch> patches;
   for (const Value& table : document.at("patch").items()) reader.read(table, patches);
   document.require_all_read();

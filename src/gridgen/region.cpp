@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/named_files.h"
 #include "base/number.h"
 #include "gridgen/svg_path.h"
 #include "io/grid_file.h"
@@ -61,8 +62,8 @@ Curve read_svg(const Value& v, bool closed) {
   if (data) {
     path = {data->string(), data->text_where()};
   } else {
-    const std::filesystem::path folder = std::filesystem::path(v.where().file).parent_path();
-    path = svg_file_path((folder / v.at("file").string()).string(), v.string_or("path", ""));
+    const Value& file = v.at("file");
+    path = svg_file_path(named_file(file.string(), file.where()), v.string_or("path", ""));
   }
   SvgPath read = parse_svg_path(path);
   if (closed && !read.closed)
@@ -70,13 +71,25 @@ Curve read_svg(const Value& v, bool closed) {
   return std::move(read.curve);
 }
 
+/// Whether an outline crosses itself is asked of all pairs of its pieces.
+Curve of_few_pieces(Curve curve, const Location& where) {
+  constexpr std::size_t most = 10000;
+  const std::size_t pieces = curve.knots.size() - 1;
+  if (pieces > most)
+    throw Error(
+        Fault::usage,
+        "a curve of " + std::to_string(pieces) + " pieces; at most " + std::to_string(most) + " are taken: simplify it",
+        where);
+  return curve;
+}
+
 /// A curve in any of its forms.
 Curve read_curve(const Value& v, bool closed, const Numbers& numbers) {
   const Value *points = v.find("points"), *formulas = v.find("formula"), *svg = v.find("svg");
   if ((points != nullptr) + (formulas != nullptr) + (svg != nullptr) != 1)
     throw Error(Fault::usage, "a curve is given by one of \"points\", \"formula\" and \"svg\"", v.where());
-  if (points) return read_points(*points, closed);
-  if (svg) return read_svg(*svg, closed);
+  if (points) return of_few_pieces(read_points(*points, closed), v.where());
+  if (svg) return of_few_pieces(read_svg(*svg, closed), v.where());
   return formula_curve(read_formulas(*formulas, {"t"}, numbers), formulas->where());
 }
 
@@ -181,8 +194,8 @@ void read_border(const Value& document, const Numbers& numbers, Region& region) 
 /// field = "FILE", or { file = "FILE", box = [[X, Y], [X, Y]] }: what the text of a formula reads of it.
 std::shared_ptr<const PlaneField> read_field(const Value& v, const std::string& reader) {
   const bool plain = v.kind() == Value::Kind::string;
-  const std::filesystem::path folder = std::filesystem::path(v.where().file).parent_path();
-  const std::string path = (folder / (plain ? v.string() : v.at("file").string())).string();
+  const Value& file = plain ? v : v.at("file");
+  const std::string path = named_file(file.string(), file.where());
   const Grid sheet = read_grid(path).grid;
   std::shared_ptr<PlaneField> field;
   try {

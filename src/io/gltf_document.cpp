@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/named_files.h"
 #include "io/file_bytes.h"
 #include "io/gltf_meshoptimizer.h"
 #include "io/text_scanner.h"
@@ -243,11 +244,13 @@ std::string GltfDocument::load(const std::string& uri, const std::string& label)
     return *std::move(bytes);
   }
   if (uri.find("://") != std::string::npos) fail(label + " is at " + uri + "; only files beside this one can be read");
-  const std::filesystem::path file = std::filesystem::path(path_).parent_path() / from_percent_encoding(uri);
+  const std::string name = from_percent_encoding(uri);
+  if (!may_read_beside(path_, name)) fail(label + " is at " + in_quotes(uri) + ", " + outside_hint);
+  const std::string file = path_beside(path_, name);
   std::error_code code;  // a device or a pipe may never end
   if (std::filesystem::exists(file, code) && !std::filesystem::is_regular_file(file, code))
     fail(label + " is at " + in_quotes(uri) + ", which is no file");
-  return read_file(file.string());
+  return read_file(file);
 }
 
 std::string_view GltfDocument::buffer(std::size_t i) {

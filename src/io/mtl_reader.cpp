@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/named_files.h"
 #include "base/srgb.h"
 #include "io/file_bytes.h"
 #include "io/text_scanner.h"
@@ -61,15 +62,19 @@ void note(std::vector<Finding>& findings, const std::string& kind, const std::st
   findings.push_back({kind, text, 1, 0, false});
 }
 
-void read_library(const std::filesystem::path& folder, const std::string& library,
+void read_library(const std::string& shape_path, const std::string& library,
                   std::map<std::string, MtlMaterial>& materials, std::vector<Finding>& findings) {
-  const std::filesystem::path path = folder / library;
+  const std::string path = path_beside(shape_path, library);
+  if (!may_read_beside(shape_path, library))
+    return note(findings, "outside-file",
+                "the material library " + in_quotes(library) +
+                    " lies outside the folder of this file; its colours are left out: --allow-outside reads it");
   if (!is_file(path))
     return note(findings, "missing-file",
                 "the material library " + in_quotes(library) + " is not there; its colours are left out");
   std::map<std::string, MtlMaterial> own;
   try {
-    parse(read_file(path.string()), path.string(), own);
+    parse(read_file(path), path, own);
   } catch (const Error& error) {
     return note(findings, "unreadable-file", std::string(error.what()) + "; its colours are left out");
   }
@@ -87,7 +92,7 @@ void read_library(const std::filesystem::path& folder, const std::string& librar
 void read_mtl(const std::string& shape_path, const std::string& names, std::map<std::string, MtlMaterial>& materials,
               std::vector<Finding>& findings) {
   const std::filesystem::path folder = std::filesystem::path(shape_path).parent_path();
-  for (const std::string& library : libraries(folder, names)) read_library(folder, library, materials, findings);
+  for (const std::string& library : libraries(folder, names)) read_library(shape_path, library, materials, findings);
 }
 
 }  // namespace pelage

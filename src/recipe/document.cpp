@@ -9,13 +9,11 @@
 
 #include "base/read_files.h"
 #include "base/suggest.h"
+#include "recipe/text_limits.h"
 
 namespace pelage {
 
 namespace {
-
-// Models and recipes are a few kB of text; a larger file is not one of them.
-constexpr std::size_t largest_file = 1 << 20;
 
 Location location(const toml::source_region& source, const std::string& file) {
   return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
@@ -198,6 +196,7 @@ void Value::require_all_read() const {
 }
 
 Value parse_document(std::string_view text, const std::string& file) {
+  require_limits(text, file);
   try {
     const toml::table table = toml::parse(text);
     return DocumentReader(text, file).read(table);
@@ -213,10 +212,10 @@ std::string read_text(const std::string& path) {
     throw Error(Fault::input, "is a folder; give the path of a .toml file", {path});
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
   if (!file) throw Error(Fault::input, "cannot be read; check the path", {path});
-  std::string text(largest_file + 1, '\0');
+  std::string text(largest_text + 1, '\0');
   text.resize(std::fread(text.data(), 1, text.size(), file.get()));
   if (std::ferror(file.get())) throw Error(Fault::input, "cannot be read to its end", {path});
-  if (text.size() > largest_file) throw Error(Fault::input, "is larger than 1 MB; this is no model or recipe", {path});
+  if (text.size() > largest_text) throw Error(Fault::input, "is larger than 1 MB; this is no model or recipe", {path});
   note_read(path, text);
   return text;
 }

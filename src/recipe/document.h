@@ -67,7 +67,8 @@ struct Value::Entry {
   Value value;
 };
 
-/// Parses a text; `file` is the name for messages. Error(usage) with line and column if it is not well-formed.
+/// Parses a text; `file` is the name for messages. Error(usage) with line and column if it is not well-formed, or
+/// goes beyond recipe/text_limits.h.
 Value parse_document(std::string_view text, const std::string& file);
 
 /// The text of a model or recipe. Error(input) if the file cannot be read, is a folder or is larger than 1 MB.

@@ -2,9 +2,9 @@
 
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 
 #include "base/length_unit.h"
+#include "base/named_files.h"
 #include "base/number.h"
 #include "recipe/document.h"
 #include "recipe/read_recipe.h"
@@ -136,6 +136,7 @@ Stage read_stage(const Value& table, std::size_t count) {
   s.name.value = "stage" + std::to_string(count);
   read_text(table, "name", s.name);
   s.model = given(table.at("model"));
+  s.model.value = named_text(s.model.value, s.model.where);
   if (const Value* v = table.find("parameters"))
     for (const auto& [name, value] : v->entries()) s.parameters.push_back(read_parameter(name, *value));
   s.size = optional_length(table, "size");
@@ -164,8 +165,8 @@ Stage read_stage(const Value& table, std::size_t count) {
 }
 
 TextureFile read_texture_file(const Value& table) {
-  const std::filesystem::path folder = std::filesystem::path(table.where().file).parent_path();
-  return {given(table.at("name")), (folder / table.at("file").string()).string()};
+  const Value& file = table.at("file");
+  return {given(table.at("name")), named_file(file.string(), file.where())};
 }
 
 /// [texture], or [[texture]] several times.
@@ -176,10 +177,16 @@ std::vector<TextureFile> read_texture_files(const Value& given) {
   return textures;
 }
 
+/// A dozen is much; each of them keeps its fields.
+constexpr std::size_t most_stages = 100;
+
 /// [stage], or [[stage]] several times.
 std::vector<Stage> read_stages(const Value& given) {
   if (given.kind() != Value::Kind::array) return {read_stage(given, 1)};
   std::vector<Stage> stages;
+  if (given.items().size() > most_stages)
+    throw Error(Fault::usage, "a recipe has at most " + std::to_string(most_stages) + " stages",
+                given.items()[most_stages].where());
   for (const Value& table : given.items()) stages.push_back(read_stage(table, stages.size() + 1));
   if (stages.empty()) throw Error(Fault::usage, "a recipe needs at least one stage", given.where());
   return stages;
@@ -269,7 +276,7 @@ Recipe read_recipe(const Value& document, const std::string& file) {
   Recipe recipe;
   recipe.name = document.string_or("name", file);
   recipe.summary = document.string_or("summary", "");
-  recipe.shape = document.string_or("shape", "");
+  if (const Value* v = document.find("shape")) recipe.shape = named_shape(v->string(), v->where());
   read_text(document, "quality", recipe.quality);
   if (const Value* textures = document.find("texture")) recipe.textures = read_texture_files(*textures);
   recipe.stages = read_stages(document.at("stage"));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/named_files.h"
 #include "base/number.h"
 #include "recipe/read_recipe.h"
 
@@ -70,7 +71,7 @@ void read_coat(const Value& table, SceneThing& thing) {
   const Value* name = table.find("recipe");
   const bool own = table.find("stage") != nullptr;
   if (name && own) throw Error(Fault::usage, "give a 'recipe' by its name, or a 'stage' here, not both", name->where());
-  if (name) thing.recipe_name = Given<std::string>{name->string(), name->where()};
+  if (name) thing.recipe_name = Given<std::string>{named_text(name->string(), name->where()), name->where()};
   if (own) thing.recipe = read_recipe(table, "");
   const Value* material = table.find("material");
   if (material && (name || own))
@@ -92,7 +93,7 @@ SceneThing read_thing(const Value& table) {
   const Value *shape = table.find("shape"), *turned = table.find("turned");
   if ((shape != nullptr) == (turned != nullptr))
     throw Error(Fault::usage, "a thing has either a 'shape' or a profile that is 'turned'", table.where());
-  if (shape) thing.shape = {shape->string(), shape->where()};
+  if (shape) thing.shape = {named_shape(shape->string(), shape->where()), shape->where()};
   if (turned) thing.turned = read_profile(*turned);
   read_coat(table, thing);
   if (const Value* framed = table.find("framed")) thing.framed = framed->boolean();

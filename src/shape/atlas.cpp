@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <unordered_map>
 
 #include "base/box.h"
 #include "base/unions.h"
@@ -160,6 +161,24 @@ void require_match(const std::vector<Atlas::Patch>& patches, const Side& a, cons
                 "the sides " + names + " meet along a part of their length only; cut the longer patch in two");
 }
 
+/// All pairs of sides that have a node in common; others cannot run along each other.
+void require_matches(const std::vector<Atlas::Patch>& patches, const std::vector<Side>& sides) {
+  std::unordered_map<Node, std::vector<std::size_t>> at_node;
+  for (std::size_t s = 0; s < sides.size(); ++s)
+    for (const Node n : sides[s].node)
+      if (auto& list = at_node[n]; list.empty() || list.back() != s) list.push_back(s);
+  std::vector<std::size_t> others;
+  for (std::size_t a = 0; a < sides.size(); ++a) {
+    others.clear();
+    for (const Node n : sides[a].node)
+      for (const std::size_t b : at_node[n])
+        if (b > a) others.push_back(b);
+    std::ranges::sort(others);
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+    for (const std::size_t b : others) require_match(patches, sides[a], sides[b]);
+  }
+}
+
 /// Edges of the borders, each by its smaller node first.
 using Edge = std::pair<Node, Node>;
 struct EdgeUse {
@@ -232,8 +251,7 @@ Atlas sew(std::vector<Atlas::Patch> patches) {
   atlas.patches = std::move(patches);
   number_nodes(atlas, near * diagonal_of(atlas.patches));
   const std::vector<Side> sides = sides_of(atlas.patches);
-  for (std::size_t a = 0; a < sides.size(); ++a)
-    for (std::size_t b = a + 1; b < sides.size(); ++b) require_match(atlas.patches, sides[a], sides[b]);
+  require_matches(atlas.patches, sides);
   const auto edges = border_edges(sides);
   bool closed = true;
   for (const auto& [edge, uses] : edges) {

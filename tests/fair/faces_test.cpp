@@ -45,5 +45,15 @@ TEST(Neighbours, OfAVertexWithVeryManyFacesAreTheNearestOnes) {
   EXPECT_EQ(few[0].size(), 60u);
 }
 
+TEST(Discs, HoldAFewHundredFacesWhateverTheRadius) {
+  const int n = 1000;
+  const std::vector<Vector3> together(n, Vector3::Zero());
+  const FaceLists lists = discs(neighbours_of(wheel(n)), together, std::vector<double>(n, 1.0));
+  for (int f = 0; f < n; ++f) {
+    ASSERT_EQ(lists[f].size(), 256U);
+    for (const Index g : lists[f]) ASSERT_LE(std::min((g - f + n) % n, (f - g + n) % n), 256 / 2);  // the nearest
+  }
+}
+
 }  // namespace
 }  // namespace pelage

@@ -12,6 +12,7 @@
 
 #include "catalog/models.h"
 #include "catalog/plan.h"
+#include "fuzz/read_arguments.h"
 #include "gridgen/generate.h"
 #include "gridgen/patches.h"
 #include "io/grid_file.h"
@@ -222,6 +223,10 @@ void read_formula(std::string_view text) {
   });
 }
 
+void read_command_line(std::string_view lines) {
+  accepted([&] { read_arguments(lines); });
+}
+
 // --- regions and patches --------------------------------------------------------------------------------
 
 /// A grid of few nodes: it is sound and has no folds, or the region is refused.
@@ -307,7 +312,8 @@ const std::vector<InputReader>& input_readers() {
                                                {"glb", read_shape_as<"input.glb">},
                                                {"vtp", read_shape_as<"input.vtp">},
                                                {"mtl", read_materials},
-                                               {"image", read_image},
+                                               {"png", read_image},
+                                               {"jpeg", read_image},
                                                {"sheet", read_sheet},
                                                {"vtk", read_vtk},
                                                {"vtu", read_volume_as<"input.vtu">},
@@ -315,6 +321,7 @@ const std::vector<InputReader>& input_readers() {
                                                {"model", read_model},
                                                {"recipe", read_recipe},
                                                {"formula", read_formula},
+                                               {"arguments", read_command_line},
                                                {"region", read_region},
                                                {"patches", read_patches},
                                                {"bpt", read_bezier},

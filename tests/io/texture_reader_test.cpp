@@ -123,20 +123,19 @@ TEST(TextureReader, RefusesTablesWithTooManySymbols) {
   std::string bytes = bytes_of(path);
   const std::size_t table = bytes.find("\xff\xc4") + 4;
   bytes[table + 15] = bytes[table + 16] = '\xff';
-  for (const std::string& start : {""s, "\xff"s})  // may be repeated in front of a marker
-    EXPECT_NE(error_of(file_of(start + bytes, "b.jpg")).find("damaged JPEG"), std::string::npos);
+  EXPECT_NE(error_of(file_of(bytes, "b.jpg")).find("Huffman"), std::string::npos);
 }
 
 TEST(TextureReader, RefusesWhatEndsEarly) {
   const std::string whole = bytes_of(picture());
-  for (std::size_t size = 1; size < whole.size() - 12; size += 7)  // the last chunk is empty
+  for (std::size_t size = 1; size < whole.size() - 4; size += 3)  // the check sum of the end
     EXPECT_NE(error_of(file_of(whole.substr(0, size))), "") << size;
 }
 
 TEST(TextureReader, RefusesPartsThatReachBeyondTheFile) {
   std::string bytes = bytes_of(picture());
   bytes[bytes.find("IDAT") - 4] = '\x40';  // the highest byte of its length: a gigabyte
-  EXPECT_NE(error_of(file_of(bytes), check_texture).find("cut short"), std::string::npos);
+  EXPECT_NE(error_of(file_of(bytes)).find("cut short"), std::string::npos);
 }
 
 TEST(TextureReader, EverythingThatPacksWellIsRead) {
@@ -168,7 +167,7 @@ TEST(TextureReader, TheHeaderAloneReservesNoMemory) {
   EXPECT_NE(error_of(file_of(bytes), read).find("17000 x 17000 pixels"), std::string::npos);
   EXPECT_NE(error_of(file_of(bytes), check_texture).find("17000 x 17000 pixels"), std::string::npos);
   bytes.replace(16, 8, "\0\xff\xff\xff\0\xff\xff\xff"s);
-  EXPECT_NE(error_of(file_of(bytes), read).find("no PNG or JPEG image"), std::string::npos);
+  EXPECT_NE(error_of(file_of(bytes), read).find("16777215 x 16777215 pixels"), std::string::npos);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ mkdir -p "$work"/{src/base,src/shape,src/io,src/look,src/render,src/run,src/veri
 echo '#include "run/run.h"' >"$work/apps/cli/main.cpp"
 echo '#include "base/error.h"' >"$work/src/shape/good.cpp"
 printf '#include <%s>\n' tbb/parallel_for.h cmath Eigen/Core >"$work/src/base/parallel.cpp"
-printf '#include <%s>\n' unistd.h tiny_gltf.h stb_image_write.h >"$work/src/io/good.cpp"
+printf '#include <%s>\n' unistd.h tiny_gltf.h >"$work/src/io/good.cpp"
 python3 "$source/tools/check_layers.py" "$work" >/dev/null
 
 expect_caught() {  # FILE INCLUDE
@@ -35,5 +35,6 @@ expect_caught src/verify/picture.cpp render/picture.h
 expect_caught src/run/threads.h "<tbb/parallel_for.h>"
 expect_caught src/look/rays.cpp "<embree3/rtcore.h>"
 expect_caught src/shape/files.cpp "<unistd.h>"
+expect_caught src/io/picture.cpp "<spng.h>"
 expect_caught src/base/unknown.cpp "<boost/optional.hpp>"
 expect_caught include/pelage/error.h "<Eigen/Core>"
