@@ -1,6 +1,6 @@
 # Thin verbs over tools/*.sh and the CMake presets, for those who have make.
 .DEFAULT_GOAL := build
-.PHONY: setup build demo test bench bench-parts test-clients format format-check tidy asan fuzz clean
+.PHONY: setup build demo test bench bench-parts test-clients format format-check tidy asan tsan mutants fuzz clean
 
 export JOBS ?= $(shell nproc)
 CMAKE_BUILD := cmake --build --parallel $(JOBS) --preset
@@ -42,6 +42,15 @@ asan: setup  ## every test under the address and undefined-behaviour sanitizers
 	@cmake --preset asan
 	@$(CMAKE_BUILD) asan
 	@ctest --preset asan --parallel $(JOBS)
+
+tsan: setup  ## the tests of what runs on several threads under the thread sanitizer
+	@cmake --preset tsan
+	@$(CMAKE_BUILD) tsan
+	@ctest --preset tsan --parallel $(JOBS)
+
+mutants:  ## plant some 140 mistakes one by one and see whether the tests notice; an hour or two, in build/mutants
+	@sh tools/setup.sh
+	@python3 tools/mutants.py --jobs $(JOBS)
 
 fuzz:  ## ten minutes of random bytes for every reader; what crashes one stays in build/fuzz/found
 	@sh tools/setup.sh clang
