@@ -52,9 +52,8 @@ std::vector<Tick> round_ticks(double low, double high, int most) {
   const auto last = [&] { return std::floor(high / step + 1e-9); };
   while (last() - first() + 1 > most) step = round_step(step * 1.01);
   std::vector<Tick> ticks;
-  const int count = static_cast<int>(last() - first()) + 1;
-  for (int k = 0; k < count; ++k) {
-    const double i = first() + k, value = i == 0 ? 0 : i * step;  // no negative zero
+  for (double i = first(); i <= last(); ++i) {
+    const double value = i == 0 ? 0 : i * step;  // no negative zero
     ticks.push_back({value, tick_label(value, step, std::max(std::abs(low), std::abs(high)))});
   }
   return ticks;
