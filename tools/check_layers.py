@@ -21,7 +21,7 @@ INCLUDE = re.compile(r'\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 
 # Where headers belong that are neither of the C++ standard library nor of Eigen: those whose names begin like this, in
 # files whose paths begin like that.
-OUTSIDE = {"tbb/": ["src/base/parallel.cpp"], "toml++/": ["src/recipe/document.cpp"], "tiny_gltf.h": ["src/io/"],
+OUTSIDE = {"tbb/": ["src/base/parallel.cpp"], "sanitizer/": ["src/base/parallel.cpp"], "toml++/": ["src/recipe/document.cpp"], "tiny_gltf.h": ["src/io/"],
            "stb_image": ["src/io/"], "libdeflate.h": ["src/io/png_writer.cpp", "src/io/zip.cpp", "src/io/zlib.cpp"],
            "pugixml.hpp": ["src/io/vtk_document."], "stb_truetype.h": ["src/look/text.cpp"], "embree3/": ["src/render/"],
            "unistd.h": ["src/io/", "apps/cli/"], "fcntl.h": ["src/io/"],
