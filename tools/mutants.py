@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plants plausible mistakes one by one, and sees whether the tests notice.
 
-Usage: mutants.py [--check] [--jobs N] [--only WORD] [--copy DIR] [ROOT]
+Usage: mutants.py [--check] [--jobs N] [--only WHICH] [--copy DIR] [ROOT]
 
 tools/mutants.toml lists the mistakes: a file, a text that occurs in it once, what stands there instead, and the tests
 that have to fail. They are planted in a copy of the working tree, which is built by itself once; ROOT is only read. A
@@ -10,7 +10,7 @@ fewer than 95 % are killed. A list of what is not killed, with the reason where 
 
 --check     only sees that every text occurs exactly once, so that the list stays true to the sources
 --jobs N    so many compilers at a time (all cores)
---only W    only mistakes whose file or area contains this word
+--only W    only mistakes in whose area, file or meaning this regular expression is found
 --copy DIR  where the copy is or comes to be (build/mutants)
 """
 import argparse
@@ -169,7 +169,7 @@ def main():
         sys.exit("\n".join("tools/mutants.toml: " + fault for fault in faults))
     if options.check:
         return
-    mutants = [m for m in mutants if options.only in m["file"] + " " + m["area"]]
+    mutants = [m for m in mutants if re.search(options.only, " ".join([m["area"], m["file"], m["what"]]))]
     workshop = Workshop(root, (options.copy or root / "build/mutants").resolve(), options.jobs)
     print(f"building {workshop.tree}, and running the tests without any mistake", flush=True)
     workshop.prepare(mutants)
