@@ -5,8 +5,8 @@ Usage: mutants.py [--check] [--jobs N] [--only WHICH] [--copy DIR] [ROOT]
 
 tools/mutants.toml lists the mistakes: a file, a text that occurs in it once, what stands there instead, and the tests
 that have to fail. They are planted in a copy of the working tree, which is built by itself once; ROOT is only read. A
-mistake is killed by tests that fail, crash or do not end. Prints a line for each and a table of the areas; exits 1 where
-fewer than 95 % are killed. A list of what is not killed, with the reason where the list has one, ends it.
+mistake is killed by tests that fail, crash or do not end. Prints a line for each and a table of the areas, and ends with
+what is not killed and the reason where the list has one; exits 1 where fewer than 95 % are killed.
 
 --check     only sees that every text occurs exactly once, so that the list stays true to the sources
 --jobs N    so many compilers at a time (all cores)
@@ -111,8 +111,8 @@ class Workshop:
         """The first test that fails, or how the program ends; empty if all is well."""
         name, _, chosen = test.partition(":")
         try:
-            done = self.run([f"build/release/bin/{name}", "--gtest_brief=1", "--gtest_fail_fast", "--gtest_filter=" + (chosen or "*")],
-                            timeout=seconds)
+            done = self.run([f"build/release/bin/{name}", "--gtest_brief=1", "--gtest_fail_fast",
+                             "--gtest_filter=" + (chosen or "*")], timeout=seconds)
         except subprocess.TimeoutExpired:
             return f"{name} does not end"
         if done.returncode == 0:

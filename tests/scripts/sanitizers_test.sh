@@ -13,7 +13,6 @@ run() {  # PRESET TEST...
   done
 }
 [[ -d $build/asan-quick/bin && -d $build/tsan-quick/bin ]] || { echo "skipped: not built"; exit 77; }
-export ASAN_OPTIONS=allocator_may_return_null=1:detect_leaks=1
 run asan-quick base linalg recipe io
 run tsan-quick base linalg
 echo "$tests programs are clean"
