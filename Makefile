@@ -1,6 +1,6 @@
 # Thin verbs over tools/*.sh and the CMake presets, for those who have make.
 .DEFAULT_GOAL := build
-.PHONY: setup build demo test bench bench-parts test-clients format format-check tidy asan fuzz clean
+.PHONY: setup build demo test bench bench-parts test-clients format format-check tidy asan tsan mutants fuzz clean
 
 export JOBS ?= $(shell nproc)
 CMAKE_BUILD := cmake --build --parallel $(JOBS) --preset
@@ -42,6 +42,19 @@ asan: setup  ## every test under the address and undefined-behaviour sanitizers
 	@cmake --preset asan
 	@$(CMAKE_BUILD) asan
 	@ctest --preset asan --parallel $(JOBS)
+
+sanitizers: setup  ## readers, recipes, threads and linear systems under sanitizers without optimisation: some minutes
+	@for preset in asan-quick tsan-quick; do cmake --preset $$preset && $(CMAKE_BUILD) $$preset || exit 1; done
+	@bash tests/scripts/sanitizers_test.sh . build
+
+tsan: setup  ## the tests of what runs on several threads under the thread sanitizer
+	@cmake --preset tsan
+	@$(CMAKE_BUILD) tsan
+	@ctest --preset tsan --parallel $(JOBS)
+
+mutants:  ## plant some 140 mistakes one by one and see whether the tests notice; an hour or two, in build/mutants
+	@sh tools/setup.sh
+	@python3 tools/mutants.py --jobs $(JOBS)
 
 fuzz:  ## random bytes for every reader, SECONDS (30) for each, or for READERS="png recipe"; finds stay in build/fuzz/found
 	@sh tools/setup.sh clang

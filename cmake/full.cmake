@@ -31,6 +31,12 @@ endif()
 # Threads: base/parallel.cpp is all that differs from the core alone.
 set_source_files_properties(src/base/parallel.cpp PROPERTIES COMPILE_DEFINITIONS PELAGE_HAS_TBB)
 target_link_libraries(pelage_core PRIVATE TBB::tbb)
+if(PELAGE_SANITIZE MATCHES thread)
+  # TBB's library is not instrumented, so its headers must not be, either; parallel.cpp says in which order things happen.
+  set_property(SOURCE src/base/parallel.cpp APPEND PROPERTY COMPILE_DEFINITIONS PELAGE_TSAN)
+  set_source_files_properties(src/base/parallel.cpp PROPERTIES COMPILE_OPTIONS -fno-sanitize=thread
+    SKIP_PRECOMPILE_HEADERS ON)
+endif()
 
 pelage_library(pelage_io io recipe)  # files and texts
 target_include_directories(pelage_io SYSTEM PRIVATE ${TINYGLTF_INCLUDE_DIR} ${LIBDEFLATE_INCLUDE_DIR} ${SPNG_INCLUDE_DIR}

@@ -21,7 +21,7 @@ INCLUDE = re.compile(r'\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 
 # Where headers belong that are neither of the C++ standard library nor of Eigen: those whose names begin like this, in
 # files whose paths begin like that.
-OUTSIDE = {"tbb/": ["src/base/parallel.cpp"], "toml++/": ["src/recipe/document.cpp"], "tiny_gltf.h": ["src/io/"],
+OUTSIDE = {"tbb/": ["src/base/parallel.cpp"], "sanitizer/": ["src/base/parallel.cpp"], "toml++/": ["src/recipe/document.cpp"], "tiny_gltf.h": ["src/io/"],
            "spng.h": ["src/io/png_reader.cpp"], "turbojpeg.h": ["src/io/jpeg_reader.cpp"],
            "libdeflate.h": ["src/io/png_writer.cpp", "src/io/zip.cpp", "src/io/zlib.cpp"],
            "pugixml.hpp": ["src/io/vtk_document.", "src/io/record_in_file.cpp"], "stb_truetype.h": ["src/look/text.cpp"], "embree3/": ["src/render/"],

@@ -198,7 +198,8 @@ class Picture {
   int reach() const { return light_reach(rays_.levels, rays_.cell); }
 
   void paint_rows(int top, int bottom, const Part& part) {
-    const auto [looked, lit, smoothed, traced] = shares();
+    const auto share = shares();
+    const double looked = share[0], lit = share[1], smoothed = share[2], traced = share[3];
     // Whole squares, in which the painter looks for what is worth its rays.
     const int around = (reach() + Painter::tile - 1) / Painter::tile * Painter::tile;
     const int first = std::max(0, top - around), last = std::min(image_.height, bottom + around);

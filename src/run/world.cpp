@@ -85,8 +85,8 @@ VertexAttributes World::at_nodes(const Texture& texture) const {
 }
 
 std::vector<Point> World::coarse_control(std::vector<Point> points) const {
-  const bool solve = program_->interpolate && program_->method->interpolate;
-  return solve ? program_->method->interpolate(hierarchy_->topology(0), points) : points;
+  if (!program_->interpolate || !program_->method->interpolate) return points;
+  return program_->method->interpolate(hierarchy_->topology(0), points);
 }
 
 World World::unmoved() const {

@@ -177,7 +177,7 @@ double PolygonGround::sum_up_pieces() {
 
 /// Pieces at the line where parts meet are seen at least in their middle.
 CellPlace PolygonGround::scattered_on(const CoveredParts::Piece& piece, const std::array<double, 2>& in) const {
-  const auto& [a, b, c] = piece.corner;
+  const auto &a = piece.corner[0], &b = piece.corner[1], &c = piece.corner[2];
   const auto put_at = [&](double v, double w) {
     CellPlace place;
     place.face = piece.face;

@@ -95,16 +95,16 @@ void Etd::to_field(std::vector<double>& waves, Vector& field) const {
 double Etd::finish(std::vector<Vector>& next) {
   double worst = 0;
   for (const std::size_t i : evolving_) {
-    auto& [now, rest, middle] = waves_[i];
+    Waves& u = waves_[i];
     const Multipliers& m = multipliers_[i];
     to_waves(parts_.rest(i), work_);
     for_waves(*transform_, [&](std::size_t w, std::size_t n) {
-      now[n] += m.third[w] * (work_[n] - rest[n]);
-      middle[n] = m.third[w] * (rest[n] - 2 * middle[n] + work_[n]);
+      u.now[n] += m.third[w] * (work_[n] - u.rest[n]);
+      u.middle[n] = m.third[w] * (u.rest[n] - 2 * u.middle[n] + work_[n]);
     });
-    const double error = transform_->mean_square(middle), size = transform_->mean_square(now);
+    const double error = transform_->mean_square(u.middle), size = transform_->mean_square(u.now);
     if (error > 0) worst = std::max(worst, std::sqrt(error / std::max(size, negligible * negligible)));
-    to_field(now, next[i]);
+    to_field(u.now, next[i]);
   }
   return worst;
 }
@@ -118,24 +118,24 @@ StepReport Etd::step(const System& system, State& state, const StepRequest& requ
   parts_.split(system, state.now, t);
   next_ = state.now;
   for (const std::size_t i : evolving_) {
-    auto& [now, rest, middle] = waves_[i];
+    Waves& u = waves_[i];
     Multipliers& m = multipliers_[i];
     m.update(*transform_, h, parts_.c(i), *system.species[i].tensor);
-    to_waves(state.now[i], now);
-    to_waves(parts_.rest(i), rest);
+    to_waves(state.now[i], u.now);
+    to_waves(parts_.rest(i), u.rest);
     for_waves(*transform_,
-              [&](std::size_t w, std::size_t n) { work_[n] = m.half_exp[w] * now[n] + m.half_phi1[w] * rest[n]; });
+              [&](std::size_t w, std::size_t n) { work_[n] = m.half_exp[w] * u.now[n] + m.half_phi1[w] * u.rest[n]; });
     to_field(work_, next_[i]);
   }
   parts_.evaluate(system, next_, t + h / 2);
   for (const std::size_t i : evolving_) {
-    auto& [now, rest, middle] = waves_[i];
+    Waves& u = waves_[i];
     const Multipliers& m = multipliers_[i];
-    to_waves(parts_.rest(i), middle);
+    to_waves(parts_.rest(i), u.middle);
     for_waves(*transform_, [&](std::size_t w, std::size_t n) {
-      const double grown = m.exp[w] * now[n], change = middle[n] - rest[n];
-      work_[n] = grown + m.phi1[w] * (middle[n] + change);
-      now[n] = grown + m.phi1[w] * rest[n] + m.second[w] * change;
+      const double grown = m.exp[w] * u.now[n], change = u.middle[n] - u.rest[n];
+      work_[n] = grown + m.phi1[w] * (u.middle[n] + change);
+      u.now[n] = grown + m.phi1[w] * u.rest[n] + m.second[w] * change;
     });
     to_field(work_, next_[i]);
   }

@@ -280,7 +280,7 @@ Chart Merger::merged(const Candidate& candidate) const {
 }
 
 void Merger::accept(const Candidate& candidate, Chart chart) {
-  const auto [kept, gone] = candidate.pair;
+  const std::int32_t kept = candidate.pair.first, gone = candidate.pair.second;
   for (const HalfEdge h : candidate.arc) joined_[h] = joined_[faces_.twin[h]] = 1;
   for (const std::int32_t t : chart.source) chart_of_[t] = kept;
   charts_[kept] = std::move(chart);

@@ -25,6 +25,33 @@ TEST(Parallel, TheFailureOfTheLowestChunkComesOut) {
     }
 }
 
+/// One that had begun before and fails afterwards; as far as there are two threads.
+TEST(Parallel, AHigherChunkThatFailsLaterDoesNot) {
+  using std::chrono::milliseconds;
+  const auto wait_for = [](const std::atomic<bool>& what) {
+    for (int k = 0; k < 20 && !what; ++k) std::this_thread::sleep_for(milliseconds(1));
+  };
+  for (int repetition = 0; repetition < 5; ++repetition) {
+    std::atomic<bool> begun = false, failed = false;
+    try {
+      parallel_chunks(2, [&](std::size_t c) {
+        if (c == 0) {
+          wait_for(begun);
+          failed = true;
+        } else {
+          begun = true;
+          wait_for(failed);
+          std::this_thread::sleep_for(milliseconds(2));
+        }
+        throw std::runtime_error(std::to_string(c));
+      });
+      FAIL() << "no exception came out";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "0");
+    }
+  }
+}
+
 /// A loop inside a chunk is whole or not begun, even if another chunk fails meanwhile.
 TEST(Parallel, AFailureCutsNoOtherChunkShort) {
   std::atomic<int> begun = 0, whole = 0;

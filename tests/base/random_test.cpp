@@ -17,5 +17,14 @@ TEST(SmoothNoise, HasAValueAtAnyDistance) {
   EXPECT_NE(smooth_noise({1e18, 0.3, 0}, 1, 1), smooth_noise({1e300, 0.3, 0}, 1, 1));
 }
 
+/// A period further on and further back; the places are exact in binary.
+TEST(SmoothNoise, RepeatsOnBothSidesOfZero) {
+  constexpr std::array<double, 3> period = {1, 2, 0.5};
+  const auto at = [&](double turns) {
+    return smooth_noise({0.3125 + turns, 0.8125 + 2 * turns, 0.1875 + 0.5 * turns}, 0.125, 7, period);
+  };
+  for (const double turns : {-3.0, -1.0, 1.0}) EXPECT_EQ(at(turns), at(0));
+}
+
 }  // namespace
 }  // namespace pelage

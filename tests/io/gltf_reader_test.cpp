@@ -142,6 +142,9 @@ TEST(GltfReader, SaysWhatIsWrong) {
   error(broken("\"count\":4", "\"count\":4000000000"), "accessor 0 promises more");
   error(broken("\"count\":4", "\"count\":5"), "accessor 0 promises more");
   error(broken("\"byteLength\":48", "\"byteLength\":4000"), "lies beyond");
+  for (const std::string offset : {"48", "49", "50"})  // at its end, and beyond
+    error(broken("\"count\":4", ("\"byteOffset\":" + offset + ",\"count\":4").c_str()),
+          offset == "48" ? "accessor 0 promises more" : "accessor 0 lies beyond its buffer view");
   error(broken("\"count\":4", "\"count\":3"), "mesh 0 has index 3");
   error(broken("\"POSITION\":0", "\"POSITION\":9"), "accessor 9 does not exist");
   error(broken("\"POSITION\":0", "\"NORMAL\":0"), "no POSITION");

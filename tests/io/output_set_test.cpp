@@ -160,7 +160,8 @@ TEST(OutputSet, AListThatIsCutShortOrForeignDoesNothing) {
   const fs::path folder = test::fresh_folder(), other = folder / "other";
   write_file(other.string(), "precious");
   for (const std::string& list :
-       {std::string("pelage set 1\n"), "pelage set 1\n" + other.string() + '\0' + "end", std::string("x")}) {
+       {std::string("pelage set 1\n"), "pelage set 1\n" + (folder / "a.pelage-partial").string() + '\0',
+        "pelage set 1\n" + other.string() + '\0' + "end", std::string("x")}) {
     write_file((folder / "a.pelage-set").string(), list);
     write_file((folder / "a.pelage-partial").string(), "half");
     clear_leftovers(folder.string());
@@ -176,6 +177,22 @@ TEST(OutputSet, LivingRunsAreLeftAlone) {
   living.write("half");
   clear_leftovers(folder.string());
   EXPECT_EQ(names_in(folder), Names{"a.pelage-partial"});
+  const TemporaryFile other((folder / "b").string());
+  const std::string list =
+      "pelage set 1\n" + living.name() + '\0' + other.name() + '\0' + "end";  // it is about to rename them
+  write_file((folder / "a.pelage-set").string(), list);
+  clear_leftovers(folder.string());
+  EXPECT_EQ(names_in(folder), (Names{"a.pelage-partial", "a.pelage-set", "b.pelage-partial"}));
+}
+
+/// Seen where the second renaming fails.
+TEST(OutputSet, AListStandsWhileTwoFilesAreRenamed) {
+  const fs::path folder = test::fresh_folder();
+  std::vector<TemporaryFile> files;
+  for (const char* name : {"a", "b"}) files.emplace_back((folder / name).string());
+  fs::create_directories(folder / "b" / "in the way");
+  expect_error(Fault::output, "cannot write", [&] { put_all_in_place(std::move(files)); });
+  EXPECT_EQ(names_in(folder), (Names{"a", "a.pelage-set", "b"}));
 }
 
 }  // namespace

@@ -215,6 +215,17 @@ TEST(PlyReader, CountsThatTheFileCannotHold) {
   error(header + Bytes().add(std::uint32_t{2}).add(0).text, "cut short");
 }
 
+TEST(PlyReader, EveryByteThatIsMissingIsMissed) {
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  Bytes data;
+  for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) data.add(x);
+  data.add(std::uint8_t{3}).add(0).add(1).add(2);
+  EXPECT_EQ(read(header + data.text).mesh.corners, (std::vector<std::int32_t>{0, 1, 2}));
+  for (std::size_t k = 0; k < data.text.size(); ++k) error(header + data.text.substr(0, k), "");
+}
+
 TEST(PlyReader, CutShortAndWrongValues) {
   for (std::size_t length = triangle_ascii.size() - 2; length > triangle_ascii.find("0 0 0"); --length) {
     std::string cut = triangle_ascii.substr(0, length);

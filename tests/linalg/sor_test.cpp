@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "base/parallel.h"
 #include "base/random.h"
@@ -84,6 +85,34 @@ TEST(Sor, ThreePointsHaveTwoColours) {
   const SweepColours colours(*pattern);
   ASSERT_EQ(colours.count(), 2U);
   EXPECT_EQ(colours.rows(0), (std::vector<std::int32_t>{0, 2, 4}));
+}
+
+/// Young 1954: on a chain with both ends held the errors of Gauss and Seidel fall by cos^2 h in a sweep, with h = pi /
+/// (n + 1), and those of the best relaxation, w = 2 / (1 + sin h), by w - 1 (times the number of sweeps, for a double
+/// eigenvalue).
+TEST(Sor, RelaxationMakesItAsMuchFasterAsTheorySays) {
+  constexpr std::int32_t n = 31;
+  auto pattern = std::make_shared<SparsePattern>();
+  pattern->rows = pattern->columns = n;
+  SparseMatrix a;
+  for (std::int32_t i = 0; i < n; ++i) {
+    for (std::int32_t j = std::max(0, i - 1); j <= std::min(n - 1, i + 1); ++j) {
+      pattern->column.push_back(j);
+      a.value.push_back(i == j ? 2 : -1);
+    }
+    pattern->start.push_back(static_cast<std::int64_t>(pattern->column.size()));
+  }
+  a.pattern = pattern;
+  const double h = std::numbers::pi / (n + 1), best = 2 / (1 + std::sin(h)), tolerance = 1e-10;
+  const auto sweeps = [&](double relaxation) {
+    Vector x = Vector::Zero(n);
+    return successive_over_relaxation(a, SweepColours(*pattern), Vector::Ones(n), x, nullptr,
+                                      {.relaxation = relaxation, .tolerance = tolerance})
+        .iterations;
+  };
+  EXPECT_NEAR(sweeps(1), std::log(tolerance) / std::log(std::cos(h) * std::cos(h)), 0.05 * sweeps(1));
+  EXPECT_GT(sweeps(best), std::log(tolerance) / std::log(best - 1));
+  EXPECT_LT(sweeps(best), 1.5 * std::log(tolerance) / std::log(best - 1));
 }
 
 TEST(Sor, HeldUnknownsKeepTheirValues) {

@@ -66,5 +66,16 @@ TEST(Spectrum, AConstantHasNone) {
                   .empty());
 }
 
+/// Linear between the middles of the shares.
+TEST(Spectrum, QuantilesLieBetweenTheMiddles) {
+  Spectrum s;
+  s.wave_number = {1, 2, 4};
+  s.share = {0.25, 0.5, 0.25};
+  EXPECT_EQ(s.quantile(0.1), 1);
+  EXPECT_EQ(s.quantile(0.3125), 1.5);
+  EXPECT_EQ(s.quantile(0.5), 2);
+  EXPECT_EQ(s.quantile(1), 4);
+}
+
 }  // namespace
 }  // namespace pelage

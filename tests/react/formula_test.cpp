@@ -30,6 +30,7 @@ TEST(Formula, LogicBindsLooserThanComparison) {
   EXPECT_EQ(value_of("not 1 == 2"), 1);
   EXPECT_EQ(value_of("not not 3"), 1);
   EXPECT_EQ(value_of("(1 <= 1) + (2 >= 3) + (1 != 1) + (1 < 2)"), 2);
+  EXPECT_EQ(value_of("(2 > 2) + 10*(2 >= 2) + 100*(2 < 2) + 1000*(2 <= 2)"), 1010);
   EXPECT_EQ(value_of("if(x < 1, 5, 6)", 0), 5);
   EXPECT_EQ(value_of("if(x < 1, 5, 6)", 1), 6);
 }

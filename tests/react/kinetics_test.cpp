@@ -47,6 +47,16 @@ TEST(Kinetics, ReadsThePlace) {
   EXPECT_EQ(rates(rate_of("cos(t*0) + u*(t + 1)"), places, 1, 2, 3), (std::vector<double>{10, 10}));
 }
 
+TEST(Kinetics, BoundsHoldInitialValuesAndWhatReactionsSee) {
+  const Model model = model_of("[species.u]\nmin = -1\nmax = 2\ndiffusion = 0\nrate = '10*u'\ninitial = 'x'\n");
+  const std::vector<Point> points = {{-3, 0, 0}, {0.5, 0, 0}, {7, 0, 0}};
+  std::vector<double> initial(3);
+  Kinetics(model, {.positions = points}, 1).initial(0, initial);
+  EXPECT_EQ(initial, (std::vector<double>{-1, 0.5, 2}));
+  for (const auto& [u, rate] : {std::pair{-3.0, -10.0}, {0.5, 5.0}, {7.0, 20.0}})
+    EXPECT_EQ(rates(model, {.positions = points}, 1, 0, u), (std::vector<double>(3, rate)));
+}
+
 TEST(Kinetics, PlacesInTheBoundingBoxRunFromMinusOneToOne) {
   const std::vector<Point> points = {{1, 2, 7}, {3, 2, 5}, {2.5, 2, 9}};
   EXPECT_EQ(rates(rate_of("bx"), {.positions = points}, 1), (std::vector<double>{-1, 1, 0.5}));

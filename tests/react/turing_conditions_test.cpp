@@ -106,6 +106,23 @@ TEST(TuringConditions, ThirdSpeciesThatOnlyFollows) {
   EXPECT_FALSE(turing_conditions(three, numbered_names(3)).back().holds);
 }
 
+/// With a flux of v along -grad u, c = 2.5, det(J - k^2 D) = D k^4 + (2 - D - c) k^2 + 1 is nowhere negative for D_v =
+/// D between (1 - r)^2 and (1 + r)^2, r = sqrt(3 - c): there are two thresholds, of which the nearer one is told.
+TEST(TuringConditions, OfTwoThresholdsTheNearerOneIsTold) {
+  Stability s;
+  s.steady_states = {{0, 0}};
+  s.jacobian = {1, -1, 3, -2};
+  s.fluxes = {0, 0, 2.5, 0};
+  s.eigenvalues = {{-0.5, std::sqrt(0.75)}, {-0.5, -std::sqrt(0.75)}};
+  const double root = std::sqrt(0.5), low = std::pow(1 - root, 2), high = std::pow(1 + root, 2);
+  for (const double d : {0.2, 1.0}) {  // low is 2.3 times less than the first, high 2.9 times more than the second
+    s.diffusion = {1, d};
+    const DiffusionThreshold t = threshold_of(s, 1);
+    EXPECT_EQ(t.grows_above, d == 1);
+    EXPECT_NEAR(t.diffusion, d == 1 ? high : low, 1e-6);
+  }
+}
+
 /// Swift-Hohenberg as w = lap(u), du/dt = r u - u - 2 w - lap(w): sigma = r - (1 - k^2)^2, so that r = 0 is marginal.
 TEST(TuringConditions, CrossDiffusionAndAlgebraicSpecies) {
   for (const double r : {-0.1, 0.2}) {

@@ -69,6 +69,11 @@ TEST(Wavelength, WhatActsOnTheStartOrOnTheMeanOfThePlaceAloneDoesNotChangeItByAB
   EXPECT_EQ(wavelength_of("schnakenberg", {{"roughness", 0.3}}), 12.8);
 }
 
+/// Run backwards, they are others.
+TEST(Wavelength, AFactorBelowZeroIsNoOtherUnit) {
+  EXPECT_FALSE(known_wavelength(compile(measured_model(), {{"r", -1}})));
+}
+
 TEST(Wavelength, IsRefusedWhereOtherEquationsHaveNoTheory) {
   EXPECT_EQ(
       refusal_of(compile(measured_model(), {{"ratio", 0.5}, {"D", 2}})),

@@ -161,9 +161,12 @@ TEST(EtdSeries, HeldUnknownsStayAndDriveTheOthers) {
     auto held = std::make_shared<Held>(162, 0);
     for (std::size_t v = 0; v < 162; ++v) (*held)[v] = s.space->control()[v][2] > 0.5;
     s.system.held = held;
-    set_reaction(s.system, [](auto&&, double, std::vector<double>& c2, auto&&) { c2[0] = -1; });
+    set_reaction(s.system, [](auto&&, double t, std::vector<double>& c2, std::vector<double>& c3) {
+      c2[0] = -1;
+      c3[0] = std::sin(3 * t);  // other rates in each stage
+    });
     const Vector before = s.state.now[0];
-    advance_series(s, *stepper->make(), stepper == &etd ? 5 : 500, 1);
+    advance_series(s, *stepper->make(), stepper == &etd ? 10 : 500, 1);
     for (Eigen::Index v = 0; v < 162; ++v)
       if ((*held)[static_cast<std::size_t>(v)]) {
         EXPECT_EQ(s.state.now[0][v], before[v]) << stepper->name;

@@ -48,6 +48,18 @@ TEST(GeneralisedStep, SourceAndDecayAtAUniformStateAreThoseOfTheOde) {
   EXPECT_LT((u.array() - (2 + 0.1 * 5) / (1 + 0.1 * 3)).abs().maxCoeff(), 1e-9);
 }
 
+/// C0 stands before all that happens in space, and there is nothing of that.
+TEST(GeneralisedStep, AVaryingC0ChangesNoUniformState) {
+  const Sphere s;
+  GeneralisedPde pde;
+  for (const Point& p : s.sampling.position) pde.c0.push_back(2 + p[0]);
+  pde.c2.assign(pde.c0.size(), -3.0);
+  pde.c3 = Eigen::MatrixXd::Constant(s.sampling.count(), 1, 5.0);
+  Eigen::MatrixXd u = Eigen::MatrixXd::Constant(642, 1, 2.0);
+  ASSERT_TRUE(s.step(pde, 0.1, u).accepted);
+  EXPECT_LT((u.array() - (2 + 0.1 * 5) / (1 + 0.1 * 3)).abs().maxCoeff(), 1e-9);
+}
+
 TEST(GeneralisedStep, ConstantC0OfZeroStopsDiffusion) {
   const Sphere s;
   GeneralisedPde pde;
