@@ -1,6 +1,6 @@
 # Thin verbs over tools/*.sh and the CMake presets, for those who have make.
 .DEFAULT_GOAL := build
-.PHONY: setup build demo test bench bench-parts test-clients format format-check tidy asan tsan mutants fuzz clean
+.PHONY: setup build demo test bench bench-parts test-clients format format-check tidy asan tsan sanitizers mutants fuzz clean
 
 export JOBS ?= $(shell nproc)
 CMAKE_BUILD := cmake --build --parallel $(JOBS) --preset

@@ -124,8 +124,8 @@ ShapeFile read_input(const GrowOptions& options, const std::string& shape, const
   return file;
 }
 
-/// Of all that a coat and its files take while they are made, measured [bytes].
-constexpr double coat_triangle = 400;
+/// Of all that a coat and its files take while they are made, measured, on surfaces and on nodes [bytes].
+constexpr double coat_triangle = 400, node_triangle = 250;
 
 /// Refuses what cannot be: before it begins.
 void foresee(const Program& program, const CoatRequest& request, GrowReport& report) {
@@ -134,7 +134,7 @@ void foresee(const Program& program, const CoatRequest& request, GrowReport& rep
   const auto shape = static_cast<double>(shape_of(program)->triangles.size());
   const double triangles =
       program.nodes || look.keep_shape ? shape : most_tessellated(tessellation_request(look), growth.triangles, shape);
-  const double coat = coat_triangle * triangles;
+  const double coat = (program.nodes ? node_triangle : coat_triangle) * triangles;
   report.need(growth, std::max(growth.bytes, coat));
   require_memory(program);
   if (look.detail)

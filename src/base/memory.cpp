@@ -1,11 +1,13 @@
 #include "base/memory.h"
 
 #include <algorithm>
-#include <fstream>
+#include <charconv>
+#include <cstdio>
 #include <limits>
+#include <memory>
 #include <optional>
-#include <sstream>
 #include <string_view>
+#include <vector>
 
 #include "base/number.h"
 #include "pelage/error.h"
@@ -19,15 +21,26 @@ constexpr double kilobyte = 1024;  // of the system's tables
 
 double given_limit = 0;
 
-/// The first number in the line that begins so; nothing without one.
+/// Lines of a small file; none where it is not there.
+std::vector<std::string> lines_of(const std::string& path) {
+  std::vector<std::string> lines;
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "r"), std::fclose);
+  if (!file) return lines;
+  char line[512];
+  while (std::fgets(line, sizeof line, file.get())) lines.emplace_back(line);
+  return lines;
+}
+
+/// The number in the line that begins so; nothing without one.
 std::optional<double> number_in(const std::string& path, std::string_view beginning) {
-  std::ifstream file(path);
-  for (std::string line; std::getline(file, line);) {
+  for (const std::string& line : lines_of(path)) {
     if (!line.starts_with(beginning)) continue;
-    std::istringstream rest(line.substr(beginning.size()));
+    const std::size_t at = line.find_first_not_of(" \t", beginning.size());
     double value = 0;
-    if (rest >> value) return value;
-    return {};
+    if (at == std::string::npos ||
+        std::from_chars(line.data() + at, line.data() + line.size(), value).ec != std::errc())
+      return {};
+    return value;
   }
   return {};
 }
@@ -50,10 +63,9 @@ Limit system_limit(std::string_view name, std::string_view used) {
 
 /// Of the control group and of those around it, as containers have; only the second version of these groups.
 Limit group_limit() {
-  std::ifstream groups("/proc/self/cgroup");
   std::string folder;
-  for (std::string line; std::getline(groups, line);)
-    if (line.starts_with("0::")) folder = line.substr(3);
+  for (const std::string& line : lines_of("/proc/self/cgroup"))
+    if (line.starts_with("0::")) folder = line.substr(3, line.find('\n') - 3);
   double left = unlimited;
   while (!folder.empty() && folder != "/") {
     const std::string path = "/sys/fs/cgroup" + folder;

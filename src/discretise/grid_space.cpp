@@ -540,6 +540,6 @@ constexpr Method grid_method = {.name = "grid",
                                 .summary = "on the nodes of a grid",
                                 .make_node_space = node_space,
                                 .fits = is_of_sheets,
-                                .memory = {180, 60}};
+                                .memory = {130, 55}};
 
 }  // namespace pelage

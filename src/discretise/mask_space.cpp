@@ -230,6 +230,6 @@ constexpr Method mask_method = {.name = "masks",
                                 .make_node_space = mask_space,
                                 .fits = is_grid,
                                 .symmetric = false,
-                                .memory = {180, 60}};
+                                .memory = {130, 55}};
 
 }  // namespace pelage

@@ -6,6 +6,7 @@
 
 #include "catalog/bind.h"
 #include "pelage/error.h"
+#include "pelage/named_files.h"
 #include "run/directions.h"
 #include "run/random_points.h"
 #include "run/run.h"
@@ -70,7 +71,9 @@ class DiffusionModel : public ::testing::Test {
         "initial = \"if(z > 0, 2, 1)\"\n[parameters]\nD = 1\n[suggested]\nstep = 0.01\nend = 0.5\n",
         file);
     std::fclose(file);
+    allow_outside_files(true);  // the text of a test lies nowhere
   }
+  void TearDown() override { allow_outside_files(false); }
 };
 
 TEST(Stages, SlicesAndCheckpointsInsideTheSecondStageKeepTheBits) {
