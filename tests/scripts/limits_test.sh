@@ -51,7 +51,7 @@ used = 1024 * resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss - 30e6  # t
 nodes = seen["estimated_nodes"] / seen["control_vertices"]
 bytes = seen["estimated_bytes"] / used
 print(f"{' '.join(sys.argv[2:])}: nodes {nodes:.2f}, bytes {bytes:.2f} of the true ones")
-sys.exit(0 if 0.85 < nodes < 1.2 and 0.65 < bytes < 1.6 else 1)
+sys.exit(0 if 0.85 < nodes < 1.2 and 0.5 < bytes < 1.8 else 1)
 PY
 }
 foreseen builtin:animal --size .02 --keep-shape
