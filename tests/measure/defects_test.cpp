@@ -79,6 +79,22 @@ TEST(Defects, OnClosedSurfacesTheyKnowEuler) {
   EXPECT_EQ(sum(turns(builtin_shape("builtin:torus?n=2000"), wild)), 0);
 }
 
+/// Where triangles are so large that the turn of the surface itself is a half turn.
+TEST(Defects, OnAnOctahedronTheyKnowEuler) {
+  const TriangleMesh mesh{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+                          {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}},
+                          {},
+                          {},
+                          {}};
+  for (const double turn : {0.1, 0.4, 0.7, 1.1})
+    EXPECT_EQ(sum(turns(mesh,
+                        [&](const Point& p) {
+                          return Vector3{std::sin(turn + p[1]), std::cos(3 * turn + p[2]), std::sin(5 * turn - p[0])};
+                        })),
+              4)
+        << turn;
+}
+
 /// Meridians meet at the poles, which are two half turns each.
 TEST(Defects, MeridiansOfASphere) {
   const auto around = turns(builtin_shape("builtin:sphere?n=2562"), [](const Point& p) {

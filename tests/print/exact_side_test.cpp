@@ -31,6 +31,13 @@ TEST(ExactSide, SeesTheLastBit) {
   EXPECT_NE(side(a, b, c, {12, up, 1}), 0);
 }
 
+/// (1 + e)(1 - e) is less than 1 by less than a double near 1 can tell.
+TEST(ExactSide, SeesWhatProductsRoundAway) {
+  const double e = std::ldexp(1, -30);
+  EXPECT_EQ(turn({0, 0}, {1 + e, 1}, {1, 1 - e}), -1);
+  EXPECT_EQ(turn({0, 0}, {1, 1 - e}, {1 + e, 1}), 1);
+}
+
 /// Two corners exchanged turn a triangle over; three in turn do not.
 TEST(ExactSide, IsAsAntisymmetricAsDeterminants) {
   for (std::uint64_t i = 0; i < 300; ++i) {

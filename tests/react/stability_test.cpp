@@ -112,6 +112,19 @@ TEST(Stability, GrayScottFindsItsThreeStates) {
   EXPECT_EQ(found, 1);
 }
 
+/// About n = c = 1/2 waves of chemotaxis have the matrix [[-1 - k^2, 1], [chi n (1 - n) k^2, -D k^2]]: they grow where
+/// D (1 + k^2) < chi / 4 (Painter, Hillen 2002).
+TEST(Stability, CellsThatClimbGrowBelowAWaveNumber) {
+  const double D = 0.25, chi = 4;
+  const Stability stability = analyse_at(compile(load_model("keller-segel")), {0.5, 0.5});
+  for (const double k : {0.2, 0.9, 1.6, 1.8, 3.0}) {
+    const double k2 = k * k, trace = -1 - k2 - D * k2, det = (1 + k2) * D * k2 - chi / 4 * k2;
+    const double larger = (trace + std::sqrt(trace * trace - 4 * det)) / 2;
+    EXPECT_NEAR(growth_rate(stability, k).real(), larger, 1e-12);
+    EXPECT_EQ(growth_rate(stability, k).real() > 0, D * (1 + k2) < chi / 4);
+  }
+}
+
 TEST(Stability, SpeciesWithoutDiffusion) {
   const auto model = [](const char* text) { return compile(parse_model(text, "m.toml")); };
   // A relaxing third species that does not diffuse changes neither threshold nor wavelength.
