@@ -127,7 +127,7 @@ ShapeFile read_input(const GrowOptions& options, const std::string& shape, const
 /// Of all that a coat and its files take while they are made, measured, on surfaces and on nodes [bytes].
 constexpr double coat_triangle = 400, node_triangle = 250;
 
-/// Refuses what cannot be: before it begins.
+/// Tells what is going to be needed, and refuses the coat for which there is no room; World refuses the growth.
 void foresee(const Program& program, const CoatRequest& request, GrowReport& report) {
   const Forecast growth = forecast(program);
   const Look& look = request.look;
@@ -136,7 +136,6 @@ void foresee(const Program& program, const CoatRequest& request, GrowReport& rep
       program.nodes || look.keep_shape ? shape : most_tessellated(tessellation_request(look), growth.triangles, shape);
   const double coat = (program.nodes ? node_triangle : coat_triangle) * triangles;
   report.need(growth, std::max(growth.bytes, coat));
-  require_memory(program);
   if (look.detail)
     require_memory(coat, "a coat of " + brief(triangles) + " triangles", "a --detail of less by one needs a quarter");
 }

@@ -96,9 +96,8 @@ std::string beside_output(const GrowOptions& options) {
 
 /// Where a growth takes long and nobody thought of that.
 void keep_beside(const GrowOptions& options, CheckpointFile& saved, GrowReport& report) {
-  const std::string path = beside_output(options);
-  if (path.empty()) return;
-  saved.keep_at(path);
+  saved.keep_at(beside_output(options));
+  if (saved.path().empty()) return;
   report.saving(saved.path(), options.every_minutes);
 }
 
