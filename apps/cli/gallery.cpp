@@ -17,8 +17,11 @@
 #include "input_unit.h"
 #include "interrupt.h"
 #include "io/atomic_file.h"
+#include "io/file_bytes.h"
 #include "io/output_set.h"
+#include "io/sha256.h"
 #include "look/caption.h"
+#include "parts.h"
 #include "pelage/io.h"
 #include "progress_bar.h"
 #include "text.h"
@@ -70,17 +73,37 @@ Program program_of(const Recipe& recipe, const GalleryShape& shape) {
   return bind_plan(plan(recipe), file, read_images(recipe.textures));
 }
 
-void do_job(const Job& job, const GalleryOptions& options, const std::function<bool(double)>& report) {
+std::vector<const Recipe*> recipes_of(const std::vector<GallerySubject>& subjects) {
+  std::vector<const Recipe*> recipes;
+  for (const GallerySubject& subject : subjects) recipes.push_back(&subject.recipe);
+  return recipes;
+}
+
+/// Whether a command that was cut off has made the picture, and it is as that has left it.
+bool made_before(const Job& job, const std::string& path, const Journal& journal) {
+  const auto part = journal.find(job.picture->file);
+  std::error_code ignored;
+  if (!part || !std::filesystem::is_regular_file(path, ignored)) return false;
+  const std::string hash = sha256(read_raw_file(path));
+  if (!part->starts_with(hash)) return false;
+  job.picture->uniform = part->substr(hash.size());
+  return true;
+}
+
+void do_job(const Job& job, const GalleryOptions& options, Journal& journal,
+            const std::function<bool(double)>& report) {
+  const std::string path = (std::filesystem::path(options.folder) / job.picture->file).string();
   try {
+    job.picture->made = made_before(job, path, journal);
+    if (job.picture->made) return;
     const TilePicture tile =
         tile_picture(job.subject->recipe, job.shape->file, options.view, options.picture_size, report);
     if (tile.image.rgb.empty()) return;
     job.picture->uniform = tile.uniform;
-    write_png(with_caption(tile.image, short_name(*job.subject) + ", " + job.shape->name, job.subject->title),
-              (std::filesystem::path(options.folder) / job.picture->file).string());
+    write_png(with_caption(tile.image, short_name(*job.subject) + ", " + job.shape->name, job.subject->title), path);
     publish_outputs();
+    journal.add(job.picture->file, sha256(read_raw_file(path)) + tile.uniform);
     job.picture->made = true;
-    report(1);
   } catch (const Error& error) {
     if (error.fault() == Fault::output) throw;
     if (error.fault() == Fault::cancelled) return;
@@ -130,18 +153,20 @@ std::vector<Job> jobs_for(const std::vector<GallerySubject>& subjects, const std
 }
 
 /// False when it was interrupted.
-bool make_pictures(const std::vector<Job>& jobs, const GalleryOptions& options, const Progress& progress) {
+bool make_pictures(const std::vector<Job>& jobs, const GalleryOptions& options, Journal& journal,
+                   const Progress& progress) {
   JobProgress job_progress(progress, "making the pictures", jobs.size());
   parallel_chunks(jobs.size(), [&](std::size_t j) {
     const auto report = [&](double fraction) { return job_progress.report(j, fraction); };
     if (!report(0)) return;
-    run_on_one_thread([&] { do_job(jobs[j], options, report); });
+    run_on_one_thread([&] { do_job(jobs[j], options, journal, report); });
+    report(1);
   });
   return !job_progress.cancelled();
 }
 
 /// The page then shows what was finished, and names the rest.
-[[noreturn]] void interrupted(const std::vector<Job>& jobs, const std::string& index,
+[[noreturn]] void interrupted(const std::vector<Job>& jobs, const std::string& index, const Journal& journal,
                               const std::function<void()>& write_index) {
   std::size_t made = 0;
   for (const Job& job : jobs) {
@@ -151,7 +176,8 @@ bool make_pictures(const std::vector<Job>& jobs, const GalleryOptions& options, 
   if (made == 0) throw Error(Fault::cancelled, "interrupted; no picture was finished");
   write_index();
   throw Error(Fault::cancelled, "interrupted; " + index + " shows the " + std::to_string(made) + " of " +
-                                    std::to_string(jobs.size()) + " pictures that were finished");
+                                    std::to_string(jobs.size()) + " pictures that were finished" +
+                                    where_to_go_on(journal, jobs.size(), "pictures"));
 }
 
 /// Lengths that a shape cannot give are refused before any work.
@@ -216,8 +242,10 @@ void gallery(const GalleryOptions& options) {
     write_file(index, gallery_page(options.recipes ? "Recipes" : "Models", entries, options.picture_size));
     publish_outputs();
   };
-  if (!make_pictures(jobs, options, bar.progress())) interrupted(jobs, index, write_index);
+  Journal journal(index, record_with_images(recipes_of(subjects)));
+  if (!make_pictures(jobs, options, journal, bar.progress())) interrupted(jobs, index, journal, write_index);
   write_index();
+  journal.finish();
   bar.clear();
   warn_of_uniform_pictures(jobs);
   report_failures(jobs, options.folder);

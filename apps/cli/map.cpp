@@ -10,6 +10,7 @@
 #include "catalog/models.h"
 #include "command.h"
 #include "interrupt.h"
+#include "io/journal.h"
 #include "io/output_set.h"
 #include "io/png_writer.h"
 #include "look/contact_sheet.h"
@@ -17,6 +18,7 @@
 #include "look/flat_tile.h"
 #include "look/ramp.h"
 #include "look/ticks.h"
+#include "parts.h"
 #include "pelage/io.h"
 #include "progress_bar.h"
 #include "run/parameter_map.h"
@@ -184,15 +186,20 @@ void map_command(const MapOptions& options) {
   catch_interrupts();
   const ThreadLimit threads(options.threads);
   ProgressBar bar(options.quiet ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
+  Journal journal(options.output, record_for_files());
+  const MapParts parts{[&](std::size_t c) { return journal.find(std::to_string(c)); },
+                       [&](std::size_t c, const std::string& bytes) { journal.add(std::to_string(c), bytes); }};
   try {
-    const ParameterMap map = run_map(request, bar.progress());
+    const ParameterMap map = run_map(request, bar.progress(), parts);
     bar.show("drawing " + options.output, 0);
     write_png(draw(make_sheet(options, request, map)), options.output);
     bar.clear();
     report(options, request, map);
+    journal.finish();
   } catch (const Error& error) {
     if (error.fault() != Fault::cancelled) throw;
-    throw Error(Fault::cancelled, "interrupted; no map was written");
+    throw Error(Fault::cancelled,
+                "interrupted; no map was written" + where_to_go_on(journal, request.cell_count(), "cells"));
   }
 }
 

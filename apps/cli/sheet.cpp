@@ -14,6 +14,7 @@
 #include "io/output_set.h"
 #include "io/png_writer.h"
 #include "look/contact_sheet.h"
+#include "parts.h"
 #include "pelage/render.h"
 #include "progress_bar.h"
 #include "text.h"
@@ -149,21 +150,38 @@ std::vector<Tile> tiles_of(const SheetOptions& options, const std::vector<Axis>&
   return tiles;
 }
 
-void make_tile(Tile& tile, const SheetOptions& options, int size, const std::function<bool(double)>& report) {
+std::vector<const Recipe*> recipes_of(const std::vector<Tile>& tiles) {
+  std::vector<const Recipe*> recipes;
+  for (const Tile& tile : tiles) recipes.push_back(&tile.recipe);
+  return recipes;
+}
+
+/// `number`: what the journal calls it.
+void make_tile(Tile& tile, const std::string& number, const SheetOptions& options, int size, Journal& journal,
+               const std::function<bool(double)>& report) {
   try {
+    if (const auto before = journal.find(number))
+      if (auto picture = tile_of(*before)) {
+        tile.picture = std::move(*picture);
+        return;
+      }
     tile.picture = tile_picture(tile.recipe, tile.shape->file, options.view, size, report);
-    if (!tile.picture.image.rgb.empty()) report(1);
+    if (!tile.picture.image.rgb.empty()) journal.add(number, bytes_of(tile.picture));
   } catch (const Error& error) {
+    if (error.fault() == Fault::output) throw;
     if (error.fault() != Fault::cancelled) tile.failure = one_line(error.what());
   }
 }
 
 /// False when it was interrupted.
-bool make_tiles(std::vector<Tile>& tiles, const SheetOptions& options, int size, const Progress& progress) {
+bool make_tiles(std::vector<Tile>& tiles, const SheetOptions& options, int size, Journal& journal,
+                const Progress& progress) {
   JobProgress job_progress(progress, "growing the tiles", tiles.size());
   parallel_chunks(tiles.size(), [&](std::size_t t) {
     const auto report = [&](double fraction) { return job_progress.report(t, fraction); };
-    if (report(0)) run_on_one_thread([&] { make_tile(tiles[t], options, size, report); });
+    if (!report(0)) return;
+    run_on_one_thread([&] { make_tile(tiles[t], std::to_string(t), options, size, journal, report); });
+    report(1);
   });
   return !job_progress.cancelled();
 }
@@ -254,10 +272,12 @@ void sheet(const SheetOptions& options) {
   std::vector<Tile> tiles = tiles_of(options, axes, both, shapes);
   const ThreadLimit threads(options.threads);
   ProgressBar bar(options.quiet ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
-  if (!make_tiles(tiles, options, size, bar.progress()))
-    throw Error(Fault::cancelled, "interrupted; no sheet was written");
+  Journal journal(options.output, record_with_images(recipes_of(tiles)));
+  if (!make_tiles(tiles, options, size, journal, bar.progress()))
+    throw Error(Fault::cancelled, "interrupted; no sheet was written" + where_to_go_on(journal, tiles.size(), "tiles"));
   write_png(draw(sheet_of(tiles, axes, both, size)), options.output);
   publish_outputs();
+  journal.finish();
   bar.clear();
   const std::size_t failed = warn_of_tiles(tiles);
   if (options.json) print_json(to_json(tiles, options.output));

@@ -2,6 +2,7 @@
 
 #include "catalog/bind.h"
 #include "catalog/images.h"
+#include "io/bytes.h"
 #include "look/dress.h"
 #include "node_outputs.h"
 #include "pelage/render.h"
@@ -43,6 +44,25 @@ TilePicture tile_picture(const Recipe& recipe, ShapeFile shape, const ViewOption
     tile.image = picture_of_nodes(*grid, coat, {1, 1}, size);
   else
     tile.image = render(to_be_drawn(coat), picture_options(view, size, shape.up, shape.mesh));
+  return tile;
+}
+
+std::string bytes_of(const TilePicture& tile) {
+  std::string bytes;
+  append_bytes(bytes, std::int32_t{tile.image.width});
+  append_bytes(bytes, std::int32_t{tile.image.height});
+  for (const float value : tile.image.rgb) append_bytes(bytes, value);
+  return bytes + tile.uniform;
+}
+
+std::optional<TilePicture> tile_of(std::string_view bytes) {
+  const auto width = bytes_at<std::int32_t>(bytes, 0), height = bytes_at<std::int32_t>(bytes, 4);
+  if (!width || !height || *width < 1 || *height < 1) return {};
+  constexpr std::size_t begin = 8;
+  const std::size_t values = 3 * static_cast<std::size_t>(*width) * static_cast<std::size_t>(*height);
+  if (values > (bytes.size() - begin) / sizeof(float)) return {};
+  TilePicture tile{{*width, *height, {}}, std::string(bytes.substr(begin + values * sizeof(float)))};
+  for (std::size_t i = 0; i < values; ++i) tile.image.rgb.push_back(*bytes_at<float>(bytes, begin + i * sizeof(float)));
   return tile;
 }
 

@@ -2,6 +2,7 @@
 // One coat among many: grown and drawn at once, for sheets and galleries.
 
 #include <functional>
+#include <optional>
 
 #include "pelage/io.h"
 #include "pelage/recipe.h"
@@ -18,5 +19,9 @@ struct TilePicture {
 /// Errors of growing and drawing.
 TilePicture tile_picture(const Recipe& recipe, ShapeFile shape, const ViewOptions& view, int size,
                          const std::function<bool(double)>& report);
+
+/// A picture as bytes, and the other way round; nothing where they are no picture.
+std::string bytes_of(const TilePicture& tile);
+std::optional<TilePicture> tile_of(std::string_view bytes);
 
 }  // namespace pelage

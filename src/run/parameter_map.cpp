@@ -1,6 +1,7 @@
 #include "run/parameter_map.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "base/job_progress.h"
@@ -31,7 +32,7 @@ void try_cell(MapCell& cell, Work&& work) {
   try {
     work();
   } catch (const Error& error) {
-    if (error.fault() == Fault::cancelled) throw;
+    if (error.fault() == Fault::cancelled || error.fault() == Fault::output) throw;
     cell.outcome = CellOutcome::failed;
     cell.summary.message = error.what();
   }
@@ -152,19 +153,44 @@ class Contrast {
   std::vector<double> scale_;
 };
 
-void run_cell(MapCell& cell, Program program, std::size_t species, const std::function<bool(double)>& report) {
-  Run run(std::move(program));
+/// The contrast of a cell that has ended before, whose state the run takes over; nothing where that makes no sense.
+std::optional<double> restored(Run& run, const std::string& bytes) {
+  try {
+    const std::string note = note_of_checkpoint(bytes);
+    double contrast = 0;
+    if (std::from_chars(note.data(), note.data() + note.size(), contrast).ec != std::errc{}) return {};
+    run.restore(bytes);
+    return contrast;
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+/// The contrast at the end; nothing where it was asked to stop.
+std::optional<double> run_to_end(Run& run, std::size_t species, const std::function<bool(double)>& report) {
   Contrast contrast(run);
   while (!run.done() && contrast.largest(run) > dead_contrast) {
-    if (!report(run.fraction())) return;
+    if (!report(run.fraction())) return {};
     run.advance(steps_per_slice);
     contrast.update(run);
   }
+  return contrast.of(run, species);
+}
+
+/// `before`: what is kept of it from a command that was cut off. Returns what is to be kept, if it is new.
+std::string run_cell(MapCell& cell, Program program, std::size_t species, const std::optional<std::string>& before,
+                     const std::function<bool(double)>& report) {
+  Run run(std::move(program));
+  std::optional<double> contrast = before ? restored(run, *before) : std::nullopt;
+  const bool known = contrast.has_value();
+  if (!known) contrast = run_to_end(run, species, report);
+  if (!contrast) return {};
   cell.summary = run.summary();
-  cell.contrast = contrast.of(run, species);
+  cell.contrast = *contrast;
   cell.outcome = cell.contrast < uniform_contrast ? CellOutcome::uniform : CellOutcome::pattern;
   if (run.summary().status == RunStatus::failed) cell.outcome = CellOutcome::failed;
   cell.fields = run.fields();
+  return known || cell.outcome == CellOutcome::failed ? "" : run.checkpoint(exact_number(cell.contrast));
 }
 
 std::vector<MapCell> empty_cells(const MapRequest& request) {
@@ -179,7 +205,7 @@ std::vector<MapCell> empty_cells(const MapRequest& request) {
 
 }  // namespace
 
-ParameterMap run_map(const MapRequest& request, const Progress& progress) {
+ParameterMap run_map(const MapRequest& request, const Progress& progress, const MapParts& parts) {
   ParameterMap map;
   map.cells = empty_cells(request);
   std::vector<Model> models(map.cells.size());
@@ -199,7 +225,11 @@ ParameterMap run_map(const MapRequest& request, const Progress& progress) {
     try_cell(map.cells[c], [&] {
       Program program = cell_program(request, models[c], shape, lengths.shortest, map.side);
       // Cells are too small to be shared among threads, and there are enough of them.
-      run_on_one_thread([&] { run_cell(map.cells[c], std::move(program), request.species, report); });
+      run_on_one_thread([&] {
+        const auto before = parts.find ? parts.find(c) : std::nullopt;
+        const std::string ended = run_cell(map.cells[c], std::move(program), request.species, before, report);
+        if (parts.keep && !ended.empty()) parts.keep(c, ended);
+      });
     });
     report(1);
   });

@@ -4,6 +4,10 @@
 // The square has no flux through its sides. Mirrored at them it is a quarter of a flat torus of twice the side, so that
 // cells see neither curvature nor a boundary that a pattern would notice.
 
+#include <functional>
+#include <optional>
+#include <string>
+
 #include "pelage/progress.h"
 #include "react/stability.h"
 #include "run/run.h"
@@ -26,6 +30,8 @@ struct MapRequest {
   std::optional<double> until;  ///< model time; default: the model's suggestion
   std::size_t species = 0;      ///< whose contrast tells a pattern from a uniform state
   std::uint64_t seed = 1;
+
+  std::size_t cell_count() const { return static_cast<std::size_t>(x.count) * static_cast<std::size_t>(y.count); }
 };
 
 enum class CellOutcome { pattern, uniform, failed };
@@ -44,10 +50,16 @@ struct ParameterMap {
   std::vector<MapCell> cells;  ///< x runs fastest, from the lowest y
 };
 
+/// Where cells that have ended are kept, as bytes, so that a map goes on where it was cut off. Called from any thread.
+struct MapParts {
+  std::function<std::optional<std::string>(std::size_t cell)> find = {};
+  std::function<void(std::size_t cell, const std::string& bytes)> keep = {};
+};
+
 /// Runs all cells, on all threads; the same bits for any number of them. A cell whose parameters are out of range, or
 /// whose run cannot begin, fails with the message and leaves the others alone. Error(Fault::usage), before any work,
 /// for faults of all cells (unknown parameters, say), models of which no length is known and squares too large for a
 /// mesh; Error(Fault::cancelled).
-ParameterMap run_map(const MapRequest& request, const Progress& progress = {});
+ParameterMap run_map(const MapRequest& request, const Progress& progress = {}, const MapParts& parts = {});
 
 }  // namespace pelage

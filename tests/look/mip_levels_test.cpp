@@ -150,5 +150,48 @@ TEST(MipLevels, DoNotBleedAcrossSeams) {
   }
 }
 
+/// Without looking at texels beside it.
+double nearest(const Pixels& image, double u, double v) {
+  const int texel = static_cast<int>((1 - v) * image.height) * image.width + static_cast<int>(u * image.width);
+  return linear_from_srgb(image.bytes[static_cast<std::size_t>(image.channels * texel)] / 255.0);
+}
+
+/// Every level has the contrast of a single blur from the colours themselves, however many levels came before.
+TEST(MipLevels, AreBlurredByHalfATexel) {
+  const auto waves = [](const Point& p) { return 0.5 + 0.4 * std::sin(5 * p[0] + 1) * std::cos(4 * p[1] + 3 * p[2]); };
+  const Coat coat(torus(1000), remeshed_method, 0.06, waves);
+  const TriangleMesh& shape = *coat.fields.shape;
+  const Look look = painted("u");
+  const Paint paint = resolve_paint(look, coat.fields.species);
+  const Tessellation t = tessellate(coat.fields, tessellation_request(look, paint));
+  const Palette palette = make_palette(paint, t.samples, coat.fields.uniform);
+  const UvLayout layout(shape.triangles, *shape.find("uv"), 512);
+  const std::vector<Pixels> levels = mip_levels(CoatSampler(coat.fields, t, paint), palette, shape, layout)[0];
+  const SurfaceBlur surface(t.triangles, t.samples.position);
+  const auto spread = [&](const Vector& u) {
+    const double mean = surface.mean(u);
+    return std::sqrt(surface.mean(Vector((u.array() - mean).square())));
+  };
+  const std::vector<double> colors = pelage::paint(t.samples, palette);
+  int compared = 0;
+  for (const Pixels& level : levels) {
+    const double texel = texel_length(shape, *shape.find("uv"), level.width, 0.5);
+    if (texel < 0.1 || texel > 0.8) continue;  // baked as the image itself, or blurred until nothing is left
+    std::vector<Vector> once(1, Vector(static_cast<Eigen::Index>(t.samples.size())));
+    for (std::size_t i = 0; i < t.samples.size(); ++i) once[0][static_cast<Eigen::Index>(i)] = colors[3 * i];
+    surface.blur(once, texel * texel / 4);
+    double square = 0, sum = 0;
+    constexpr std::size_t count = 20'000;
+    at_random_places(shape, count, [&](const MeshPlace&, const std::array<double, 2>& uv) {
+      const double light = nearest(level, uv[0], uv[1]);
+      sum += light / count;
+      square += light * light / count;
+    });
+    EXPECT_NEAR(std::sqrt(square - sum * sum) / spread(once[0]), 1, 0.04) << level.width;
+    ++compared;
+  }
+  EXPECT_EQ(compared, 3);
+}
+
 }  // namespace
 }  // namespace pelage

@@ -171,6 +171,17 @@ TEST(Kinetics, ThreadsAndSlicesDoNotMatter) {
   EXPECT_EQ(many, slices);
 }
 
+TEST(Kinetics, SinglePrecisionReadsEveryFieldOfThePlace) {
+  const std::vector<Point> points = {{1, 2, 4}, {2, 3, 5}, {4, 8, 16}};
+  const Kinetics kinetics(rate_of("x + 100*y*u + 1000*z"), {.positions = points}, 1);
+  const std::vector<float> u = {1, 2};
+  std::vector<float> rate(2);
+  const float* in[] = {u.data()};
+  float* out[] = {rate.data()};
+  kinetics.float_rates(0)(in, 1, 2, out);
+  EXPECT_EQ(rate, (std::vector<float>{2 + 300 + 5000, 4 + 1600 + 16000}));
+}
+
 /// At states around the initial one, relative to the largest rate, which leaves room for terms that cancel.
 TEST(Kinetics, RatesOfEveryModelInSinglePrecisionAreThoseInDouble) {
   const std::vector<Point> points = spiral();

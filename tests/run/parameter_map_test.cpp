@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <map>
+#include <mutex>
+#include <set>
 
 #include "base/parallel.h"
 #include "catalog/models.h"
@@ -43,6 +46,38 @@ TEST(ParameterMap, SameBitsForAnyNumberOfThreads) {
   const ParameterMap single = run_map(request);
   for (std::size_t c = 0; c < many.cells.size(); ++c)
     EXPECT_EQ(many.cells[c].fields.coefficients, single.cells[c].fields.coefficients);
+}
+
+/// Kept cells come back as they were, and are not run again: no time step is made, which the progress would tell.
+TEST(ParameterMap, GoesOnFromCellsThatAreKept) {
+  MapRequest request = schnakenberg_map();
+  request.until = 5;
+  std::mutex mutex;
+  std::map<std::size_t, std::string> kept;
+  MapParts parts;
+  parts.keep = [&](std::size_t cell, const std::string& bytes) {
+    const std::lock_guard lock(mutex);
+    kept[cell] = bytes;
+  };
+  const ParameterMap whole = run_map(request, {}, parts);
+  ASSERT_EQ(kept.size(), 4U);
+  std::string last = std::exchange(kept[3], "not what was kept");
+  parts.find = [&](std::size_t cell) { return std::optional(kept.at(cell)); };
+  std::set<std::size_t> anew;
+  parts.keep = [&](std::size_t cell, const std::string& bytes) {
+    EXPECT_EQ(bytes, last);
+    anew.insert(cell);
+  };
+  const ParameterMap again = run_map(request, {}, parts);
+  EXPECT_EQ(anew, std::set<std::size_t>{3});
+  for (std::size_t c = 0; c < whole.cells.size(); ++c) {
+    EXPECT_EQ(again.cells[c].fields.coefficients, whole.cells[c].fields.coefficients);
+    EXPECT_EQ(again.cells[c].contrast, whole.cells[c].contrast);
+    EXPECT_EQ(again.cells[c].outcome, whole.cells[c].outcome);
+    EXPECT_EQ(again.cells[c].summary.status, whole.cells[c].summary.status);
+    EXPECT_EQ(again.cells[c].summary.steps, whole.cells[c].summary.steps);
+    EXPECT_EQ(again.cells[c].summary.time, whole.cells[c].summary.time);
+  }
 }
 
 TEST(ParameterMap, CellsThatBlowUpAreMarkedAndTheOthersGoOn) {

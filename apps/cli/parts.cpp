@@ -1,0 +1,24 @@
+#include "parts.h"
+
+#include <set>
+
+#include "catalog/images.h"
+#include "io/output_set.h"
+
+namespace pelage {
+
+std::string record_with_images(const std::vector<const Recipe*>& recipes) {
+  std::set<std::string> seen;
+  for (const Recipe* recipe : recipes)
+    for (const TextureFile& image : recipe->textures)
+      if (seen.insert(image.path).second) read_images({image});
+  return record_for_files();
+}
+
+std::string where_to_go_on(const Journal& journal, std::size_t all, const std::string& what) {
+  if (journal.size() == 0) return "";
+  return "; " + std::to_string(journal.size()) + " of " + std::to_string(all) + " " + what + " are kept in " +
+         journal.path() + ", and the same command goes on from there";
+}
+
+}  // namespace pelage

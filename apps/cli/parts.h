@@ -1,0 +1,19 @@
+#pragma once
+// Commands of many coats, which go on where they were cut off.
+
+#include <string>
+#include <vector>
+
+#include "io/journal.h"
+#include "pelage/recipe.h"
+
+namespace pelage {
+
+/// The record of the command when all images of these recipes are read, however many of them its threads have read by
+/// now. Errors of read_images().
+std::string record_with_images(const std::vector<const Recipe*>& recipes);
+
+/// "; 5 of 12 tiles are kept in FILE, and the same command goes on from there", or nothing where none is.
+std::string where_to_go_on(const Journal& journal, std::size_t all, const std::string& what);
+
+}  // namespace pelage
