@@ -99,7 +99,7 @@ std::vector<std::string> candidates(const std::string& folder, const std::string
     if (entry.is_regular_file() && lower_extension(entry.path().string()) == lower_extension(file))
       found.push_back(read_raw_file(entry.path().string()));
   std::ranges::sort(found);  // folders have no order
-  std::ranges::stable_partition(found, [&](const std::string& one) { return one == bytes; });
+  std::stable_partition(found.begin(), found.end(), [&](const std::string& one) { return one == bytes; });
   return found;
 }
 

@@ -176,7 +176,7 @@ std::array<double, 4> find_corners(const Curve& outline) {
   const Box box = box_of(sample(outline).points);
   const auto lowest = std::ranges::min_element(
       points, {}, [&](const Point& p) { return std::hypot(p[0] - box.low[0], p[1] - box.low[1]); });
-  std::ranges::rotate(parameters, parameters.begin() + (lowest - points.begin()));
+  std::rotate(parameters.begin(), parameters.begin() + (lowest - points.begin()), parameters.end());
   return parameters;
 }
 

@@ -66,7 +66,7 @@ Image grid_lines_picture(const Grid& grid, int size) {
   Canvas canvas(pixels(width), pixels(height), white);
   std::vector<GridLine> lines;
   for (int axis = 0; axis < grid.dimension(); ++axis) add_lines(grid, static_cast<std::size_t>(axis), lines);
-  std::ranges::stable_partition(lines, [](const GridLine& line) { return !line.border; });
+  std::stable_partition(lines.begin(), lines.end(), [](const GridLine& line) { return !line.border; });
   for (const GridLine& line : lines) {
     std::vector<Spot> spots;
     for (const std::int32_t v : line.nodes) {

@@ -190,7 +190,8 @@ void Enclosures::close(std::int32_t part, const TriangleMesh& mesh, const std::v
   std::vector<WindingTree::Corners> corners = corners_of(closed);
   if (!is_balanced(corners)) return;
   const double volume = volume_of(corners);
-  solid_[index(part)] = std::make_unique<const Solid>(DistanceTree(closed), WindingTree(std::move(corners)), volume);
+  solid_[index(part)] =
+      std::make_unique<const Solid>(Solid{DistanceTree(closed), WindingTree(std::move(corners)), volume});
 }
 
 bool Enclosures::inside(std::int32_t part, const Point& p) const {

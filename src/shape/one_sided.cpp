@@ -26,6 +26,8 @@ struct Halfedge {
   Index from, to, number;
 };
 
+std::pair<Index, Index> ends_of(const Halfedge& e) { return {e.from, e.to}; }
+
 /// By their ends.
 std::vector<Halfedge> sorted_halfedges(const std::vector<Triangle>& triangles) {
   std::vector<Halfedge> edges;
@@ -33,7 +35,7 @@ std::vector<Halfedge> sorted_halfedges(const std::vector<Triangle>& triangles) {
   for (std::size_t f = 0; f < triangles.size(); ++f)
     for (std::size_t k = 0; k < 3; ++k)
       edges.push_back({triangles[f][k], triangles[f][(k + 1) % 3], static_cast<Index>(3 * f + k)});
-  std::ranges::sort(edges, {}, [](const Halfedge& e) { return std::pair{e.from, e.to}; });
+  std::ranges::sort(edges, {}, ends_of);
   return edges;
 }
 
@@ -45,12 +47,11 @@ std::vector<Index> cut_between_sides(std::vector<Triangle>& triangles, std::size
   std::iota(parent.begin(), parent.end(), Index{0});
   const std::vector<Halfedge> edges = sorted_halfedges(triangles);
   for (const Halfedge& e : edges) {
-    const auto opposite = std::ranges::equal_range(edges, std::pair{e.to, e.from}, {}, [](const Halfedge& h) {
-      return std::pair{h.from, h.to};
-    });
-    for (const Halfedge& o : opposite) {
-      unite(parent, e.number, next_halfedge(o.number));
-      unite(parent, next_halfedge(e.number), o.number);
+    // Clang before 16 has no ranges of iterators, which equal_range() would return.
+    auto o = std::ranges::lower_bound(edges, std::pair{e.to, e.from}, {}, ends_of);
+    for (; o != edges.end() && ends_of(*o) == std::pair{e.to, e.from}; ++o) {
+      unite(parent, e.number, next_halfedge(o->number));
+      unite(parent, next_halfedge(e.number), o->number);
     }
   }
   std::vector<Index> before(vertices), number(parent.size(), -1);

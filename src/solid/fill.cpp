@@ -111,7 +111,9 @@ std::vector<Cut> find_cuts(const BccLattice& lattice, const std::vector<LatticeC
         const std::int64_t upper = lattice.next(n, d);
         if (upper < 0 || (winding[at(n)] > 0) == (winding[at(upper)] > 0)) continue;
         const std::int64_t edge = BccLattice::directions * n + d;
-        const auto [first, last] = std::ranges::equal_range(all, edge, {}, &LatticeCrossing::edge);
+        // Clang before 16 has no ranges of iterators, which equal_range() would return.
+        const auto first = std::ranges::lower_bound(all, edge, {}, &LatticeCrossing::edge);
+        const auto last = std::ranges::upper_bound(first, all.end(), edge, {}, &LatticeCrossing::edge);
         part.push_back({edge, cut_of({first, last}, winding[at(n)])});
       }
   });
