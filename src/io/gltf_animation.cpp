@@ -53,14 +53,25 @@ class Animator {
  private:
   void make_targets(GltfText& part, std::size_t frames) {
     GltfText& attributes = part["attributes"];
+    const std::size_t unmoved = add_zeros(glb_.json["accessors"][attributes["POSITION"].get<std::size_t>()]["count"]);
     GltfText targets = GltfText::array();
     for (std::size_t k = 1; k < frames; ++k) {
       GltfText target = GltfText::object();
       take(attributes, as_in_gltf(color_name, k), target, "COLOR_0");
+      // three.js and Blender open no targets without it.
+      target["POSITION"] = unmoved;
       take(attributes, as_in_gltf(point_name, k), target, "POSITION");
       targets.push_back(std::move(target));
     }
     part["targets"] = std::move(targets);
+  }
+
+  /// Vectors that take no room in the file.
+  std::size_t add_zeros(std::size_t count) {
+    const std::vector<int> zero(3, 0);
+    glb_.json["accessors"].push_back(
+        {{"componentType", type_float}, {"count", count}, {"type", "VEC3"}, {"min", zero}, {"max", zero}});
+    return glb_.json["accessors"].size() - 1;
   }
 
   void take(GltfText& attributes, const std::string& from, GltfText& target, const char* to) {

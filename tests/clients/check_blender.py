@@ -17,9 +17,13 @@ meshes = [o.data for o in bpy.data.objects if o.type == "MESH"]
 assert len(meshes) == 1, "one mesh expected, %d arrived" % len(meshes)
 mesh = meshes[0]
 colors = [c for c in mesh.color_attributes]
-assert colors, "no colours"
-values = {tuple(round(x, 3) for x in c.color) for c in colors[0].data}
+images = [n.image for m in mesh.materials if m and m.node_tree for n in m.node_tree.nodes if n.type == "TEX_IMAGE"]
+shown = [tuple(c.color) for c in colors[0].data] if colors else []
+if images and len(mesh.uv_layers) > 0:
+    shown = numpy.array(images[0].pixels[:]).reshape(-1, 4)[::97].tolist()
+values = {tuple(round(x, 3) for x in c) for c in shown}
 assert len(values) > 8, "only %d different colours" % len(values)
 assert not mesh.copy().validate(), "Blender had to repair the mesh"
 print("ok %d vertices %d triangles, %d colours as %s, uv %s" % (
-    len(mesh.vertices), len(mesh.polygons), len(values), colors[0].data_type, len(mesh.uv_layers) > 0))
+    len(mesh.vertices), len(mesh.polygons), len(values), colors[0].data_type if colors else "an image",
+    len(mesh.uv_layers) > 0))

@@ -13,16 +13,19 @@ async function inspect(kind) {
   const THREE = await import('three');
   const name = { glb: 'GLTFLoader', ply: 'PLYLoader', obj: 'OBJLoader', vtp: 'VTKLoader' }[kind];
   const loader = new (await import(`three/addons/loaders/${name}.js`))[name]();
+  if (loader.setMeshoptDecoder)
+    loader.setMeshoptDecoder((await import('three/addons/libs/meshopt_decoder.module.js')).MeshoptDecoder);
   const loaded = await loader.loadAsync('/file');
   const material = new THREE.MeshStandardMaterial({ vertexColors: kind !== 'vtp' });
   const object = loaded.scene || (loaded.isBufferGeometry ? new THREE.Mesh(loaded, material) : loaded);
   const meshes = [];
-  object.traverse(o => o.isMesh && meshes.push(o.geometry));
+  let image = false;
+  object.traverse(o => o.isMesh && meshes.push(o.geometry) && (image ||= Boolean(o.material.map)));
   if (meshes.length !== 1) throw Error(`one mesh expected, ${meshes.length} arrived`);
   const { position, normal, color } = meshes[0].attributes;
   if (![...position.array].every(Number.isFinite)) throw Error('positions are not finite');
   if (!normal || normal.count !== position.count) throw Error('no normals');
-  if (kind !== 'vtp' && (!color || new Set(color.array).size < 8)) throw Error('no colours');  // its loader ignores RGB
+  if (kind !== 'vtp' && !image && (!color || new Set(color.array).size < 8)) throw Error('no colours');  // its loader ignores RGB
   const renderer = new THREE.WebGLRenderer({ canvas: document.createElement('canvas') });
   const scene = new THREE.Scene().add(object, new THREE.HemisphereLight(0xffffff, 0x888888, 3));
   const sphere = new THREE.Box3().setFromObject(object).getBoundingSphere(new THREE.Sphere());

@@ -47,6 +47,11 @@ TEST(GltfAnimation, AtItsTimeEveryFrameIsShown) {
       shown += static_cast<double>(weight[2 * key + t]) * floats(glb, part["targets"][t]["COLOR_0"])[0];
     EXPECT_NEAR(shown, greys[key % 3], 1e-6) << "key " << key;
   }
+  for (const GltfText& target : part["targets"]) {
+    const GltfText& still = glb.json["accessors"][target["POSITION"].get<std::size_t>()];
+    EXPECT_EQ(still["count"], 162);
+    EXPECT_FALSE(still.contains("bufferView"));  // zeros, by the standard
+  }
   for (const auto& [name, accessor] : part["attributes"].items()) EXPECT_FALSE(name.starts_with("_FRAME")) << name;
 }
 
