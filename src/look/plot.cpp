@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "look/text.h"
 #include "look/ticks.h"
@@ -69,21 +70,29 @@ void draw_curve(Canvas& canvas, const PlotCurve& curve, const std::vector<Spot>&
     canvas.line(spots, thick, curve.color);
 }
 
-/// The words stand at the foot of the line, where curves are seldom: right of it, or left where the frame ends.
-void draw_mark(Canvas& canvas, const PlotMark& mark, const PlotFrame& frame) {
-  const Rectangle& box = frame.box();
+bool crosses(const std::vector<Spot>& line, const Rectangle& box) {
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const auto [from, to] = share_inside(line[i - 1], line[i], box);
+    if (from <= to) return true;
+  }
+  return false;
+}
+
+void draw_mark(Canvas& canvas, const PlotMark& mark, const std::vector<std::vector<Spot>>& lines,
+               const PlotFrame& frame) {
   const Spot at = frame.place(mark.x, mark.y);
-  canvas.dashed_line({{at.x, at.y}, {at.x, box.bottom}}, 2, mark.color, 6, 8);
+  canvas.dashed_line({{at.x, at.y}, {at.x, frame.box().bottom}}, 2, mark.color, 6, 8);
   canvas.disc(at, 11, paper);
   canvas.disc(at, 8, mark.color);
-  constexpr double line = 1.25 * small_size, gap = 20;
+  constexpr double line = 1.25 * small_size;
   double width = 0;
   for (const std::string& words : mark.words) width = std::max(width, text_width(words, small_size));
-  const bool leftwards = at.x + gap + width > box.right;
-  const Spot first = {leftwards ? at.x - gap : at.x + gap,
-                      box.bottom - line * (static_cast<double>(mark.words.size()) - 0.4)};
+  const Rectangle place =
+      place_of_words(at, {width, line * static_cast<double>(mark.words.size())}, lines, frame.box());
+  const bool leftwards = place.left < at.x;
   for (std::size_t i = 0; i < mark.words.size(); ++i)
-    canvas.text(mark.words[i], {first.x, first.y + line * static_cast<double>(i)},
+    canvas.text(mark.words[i],
+                {leftwards ? place.right : place.left, place.top + small_size + line * static_cast<double>(i)},
                 {small_size, ink, leftwards ? Align::right : Align::left});
 }
 
@@ -111,6 +120,21 @@ void draw_legend(Canvas& canvas, const Plot& plot, const Rectangle& box) {
 }
 
 }  // namespace
+
+Rectangle place_of_words(const Spot& at, const Spot& size, const std::vector<std::vector<Spot>>& lines,
+                         const Rectangle& box) {
+  constexpr double gap = 20, above_axis = 10;
+  std::optional<Rectangle> first;
+  for (const double bottom : {box.bottom - above_axis, box.top + gap + size.y})
+    for (const double left : {at.x + gap, at.x - gap - size.x}) {
+      const Rectangle place{left, bottom - size.y, left + size.x, bottom};
+      if (place.left < box.left || place.right > box.right) continue;
+      if (std::ranges::none_of(lines, [&](const auto& line) { return crosses(line, place); })) return place;
+      if (!first) first = place;
+    }
+  return first.value_or(
+      Rectangle{box.left, box.bottom - above_axis - size.y, box.left + size.x, box.bottom - above_axis});
+}
 
 PlotFrame::PlotFrame(const Plot& plot)
     : box_{margins.left, margins.top + 60, plot.width - margins.right, plot.height - margins.bottom},
@@ -149,9 +173,13 @@ Image draw(const Plot& plot) {
     canvas.fill({frame.place(low, 0).x, frame.box().top, frame.place(high, 0).x, frame.box().bottom}, band.color);
   }
   draw_axes(canvas, plot, frame);
+  std::vector<std::vector<Spot>> lines;
   for (const PlotCurve& curve : plot.curves)
-    for (const std::vector<Spot>& part : visible_parts(curve, frame)) draw_curve(canvas, curve, part);
-  for (const PlotMark& mark : plot.marks) draw_mark(canvas, mark, frame);
+    for (std::vector<Spot>& part : visible_parts(curve, frame)) {
+      draw_curve(canvas, curve, part);
+      lines.push_back(std::move(part));
+    }
+  for (const PlotMark& mark : plot.marks) draw_mark(canvas, mark, lines, frame);
   draw_frame(canvas, plot, frame);
   draw_legend(canvas, plot, frame.box());
   return canvas.image();

@@ -56,6 +56,11 @@ class PlotFrame {
   Interval x_, y_;
 };
 
+/// Where words of that size stand beside a mark at `at`, in pixels: at the foot of its line or at the top of the frame
+/// `box`, right or left, the first that no curve crosses; where all are crossed, the first within the frame.
+Rectangle place_of_words(const Spot& at, const Spot& size, const std::vector<std::vector<Spot>>& curves,
+                         const Rectangle& box);
+
 /// The parts of a curve that lie within the axes, cut off exactly at their edges; in pixels.
 std::vector<std::vector<Spot>> visible_parts(const PlotCurve& curve, const PlotFrame& frame);
 

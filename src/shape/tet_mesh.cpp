@@ -70,7 +70,8 @@ TriangleMesh skin_mesh(const TetMesh& volume) {
 
 std::vector<std::uint8_t> skin_sides(const TetMesh& volume) {
   std::vector<std::uint8_t> sides(volume.tets.size());
-  for (const Side& side : skin_of(volume.tets)) sides[static_cast<std::size_t>(side.tet)] |= 1U << side.corner;
+  for (const Side& side : skin_of(volume.tets))
+    sides[static_cast<std::size_t>(side.tet)] |= static_cast<unsigned char>(1U << side.corner);
   return sides;
 }
 

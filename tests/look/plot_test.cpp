@@ -71,6 +71,20 @@ TEST(Plot, CurvesEndAtTheFrame) {
   expect_near(parts[1].back(), frame.place(5, 0));
 }
 
+TEST(Plot, WordsStandWhereNoCurveIs) {
+  const Rectangle box{0, 0, 1000, 500};
+  const Spot at{500, 100}, size{200, 60};
+  const auto left = [&](const std::vector<std::vector<Spot>>& curves) { return place_of_words(at, size, curves, box); };
+  EXPECT_EQ(left({}).left, 520);
+  EXPECT_EQ(left({}).bottom, 490);
+  const std::vector<Spot> right_foot = {{500, 400}, {900, 500}}, left_foot = {{400, 0}, {400, 500}};
+  EXPECT_EQ(left({right_foot}).right, 480);
+  EXPECT_EQ(left({right_foot}).bottom, 490);
+  EXPECT_EQ(left({right_foot, left_foot}).left, 520);
+  EXPECT_EQ(left({right_foot, left_foot}).top, 20);
+  EXPECT_EQ(place_of_words({950, 100}, size, {}, box).right, 930);
+}
+
 TEST(Canvas, LinesHaveTheirWidthAndText_ItsPlace) {
   Canvas canvas(200, 100, {1, 1, 1});
   canvas.line({{50.25, 10}, {50.25, 90}}, 3, {0, 0, 0});
