@@ -29,16 +29,20 @@ std::vector<std::string> option_names(const CLI::App& app) {
 }
 
 /// Of "Could not convert: --steps = x".
-std::string conversion(const std::string& text) {
+std::string conversion(const std::string& text, const CLI::App& app) {
   const std::size_t colon = text.find(": "), equals = text.find(" = ", colon);
   if (colon == std::string::npos || equals == std::string::npos) return text;
-  return text.substr(colon + 2, equals - colon - 2) + ": \"" + text.substr(equals + 3) + "\" is not a number";
+  const std::string name = text.substr(colon + 2, equals - colon - 2);
+  for (const CLI::App* used : app.get_subcommands())
+    if (const CLI::Option* option = used->get_option_no_throw(name); option && option->get_items_expected_max() == 0)
+      return name + " takes no value";
+  return name + ": \"" + text.substr(equals + 3) + "\" is not a number";
 }
 
 /// CLI11 names the option in front of the first colon.
-std::string message(const CLI::ParseError& error) {
+std::string message(const CLI::ParseError& error, const CLI::App& app) {
   std::string text = error.what();
-  if (error.get_name() == "ConversionError") return conversion(text);
+  if (error.get_name() == "ConversionError") return conversion(text, app);
   const std::string option = text.substr(0, text.find(':'));
   if (error.get_name() != "ArgumentMismatch") return text;
   return option + (text.find("missing") != std::string::npos ? " needs a value" : " is given more than once");
@@ -126,7 +130,7 @@ const Command& parse_arguments(CLI::App& app, const std::vector<Command>& comman
   } catch (const CLI::Success&) {
     throw;
   } catch (const CLI::ParseError& error) {
-    throw Error(Fault::usage, message(error) + "; " + help_hint(app));
+    throw Error(Fault::usage, message(error, app) + "; " + help_hint(app));
   }
   refuse_rest(app, commands);
   for (const Command& command : commands)

@@ -162,6 +162,7 @@ expect 2 'SHAPE is required' check
 expect 2 '--steps: "abc" is not a whole number' grow $sphere -o a.ply --steps abc
 expect 2 '--steps: "1.5" is not a whole number' grow $sphere -o a.ply --steps 1.5
 expect 2 '--step: "0" is not a number greater than 0' grow $sphere -o a.ply --step 0
+expect 2 '--compress takes no value' grow $sphere -o a.glb --compress=draco
 expect 2 '--until: "nan" is not a number' grow $sphere -o a.ply --until nan
 expect 2 '--stationary: "-1" is not' grow $sphere -o a.ply --stationary -1
 expect 2 '--threads: "0" is not' grow $sphere -o a.ply --threads 0
