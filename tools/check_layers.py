@@ -25,7 +25,7 @@ OUTSIDE = {"tbb/": ["src/base/parallel.cpp"], "sanitizer/": ["src/base/parallel.
            "spng.h": ["src/io/png_reader.cpp"], "turbojpeg.h": ["src/io/jpeg_reader.cpp"],
            "libdeflate.h": ["src/io/png_writer.cpp", "src/io/zip.cpp", "src/io/zlib.cpp"],
            "pugixml.hpp": ["src/io/vtk_document.", "src/io/record_in_file.cpp"], "stb_truetype.h": ["src/look/text.cpp"], "embree3/": ["src/render/"],
-           "unistd.h": ["src/io/", "apps/cli/"], "fcntl.h": ["src/io/"],
+           "malloc.h": ["apps/cli/main.cpp"], "unistd.h": ["src/io/", "apps/cli/"], "fcntl.h": ["src/io/"],
            "sys/": ["src/io/temporary_file.cpp", "apps/cli/"], "spawn.h": ["apps/cli/"], "CLI/": ["apps/cli/"], "nlohmann/": ["apps/cli/", "src/io/gltf_", "src/io/record.cpp"],
            "sha2.h": ["src/io/sha256.cpp"], "draco/": ["src/io/gltf_draco.cpp"], "meshoptimizer.h": ["src/io/gltf_meshoptimizer.cpp", "src/io/gltf_compressor.cpp"]}
 

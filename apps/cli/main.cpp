@@ -1,5 +1,7 @@
 // The command line: options to library calls, faults to exit codes.
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -57,9 +59,20 @@ int run(const std::vector<std::string>& words) {
   return exit_code;
 }
 
+/// Fields of more than 32 MB would otherwise go back to the system and be asked for again at every step, page by page:
+/// on grids of four million nodes that was three quarters of a growth.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int most = 1 << 30;
+  mallopt(M_MMAP_THRESHOLD, most);
+  mallopt(M_TRIM_THRESHOLD, most);
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of its writer
   return run(std::vector<std::string>(argv + 1, argv + argc));
 }
