@@ -16,6 +16,7 @@ using Complex = std::complex<double>;
 
 struct System {
   System(std::int32_t n, Complex t) : mass(chain(n, 4)), stiffness(chain(n, 2)) {
+    stiffness.pattern = mass.pattern;
     combine(mass, t, stiffness, matrix);
     b = random_vector(n, 1) + Complex(0, 1) * random_vector(n, 2);
     preconditioner = Jacobi(ComplexVector(diagonal(mass) + t * diagonal(stiffness)));

@@ -15,9 +15,17 @@ using testing::random_vector;
 
 constexpr std::int32_t size = 40;
 
+/// All have one pattern, as the matrices of a space do.
+SparseMatrix shared_chain(double diagonal) {
+  static const auto pattern = chain(size, 1).pattern;
+  SparseMatrix a = chain(size, diagonal);
+  a.pattern = pattern;
+  return a;
+}
+
 /// The stiffness of a chain with free ends: constants are in its kernel.
 SparseMatrix free_chain() {
-  SparseMatrix k = chain(size, 2);
+  SparseMatrix k = shared_chain(2);
   k.value.front() = k.value.back() = 1;
   return k;
 }
@@ -33,7 +41,7 @@ Solved solve(const MatrixXd& c, const ConjugateGradientOptions& options = {.tole
     s.b.push_back(random_vector(size, static_cast<std::uint64_t>(i) + 1).array() + 1.0);
     s.x.push_back(random_vector(size, static_cast<std::uint64_t>(i) + 70));
   }
-  const auto mass = std::make_shared<const SparseMatrix>(chain(size, 4)),
+  const auto mass = std::make_shared<const SparseMatrix>(shared_chain(4)),
              stiffness = std::make_shared<const SparseMatrix>(free_chain());
   CoupledSolver solver;
   solver.update(mass, stiffness, c);
@@ -43,7 +51,7 @@ Solved solve(const MatrixXd& c, const ConjugateGradientOptions& options = {.tole
 
 /// The block matrix with C_ij K + delta_ij M at block (i, j), eliminated densely.
 std::vector<Vector> solved_densely(const MatrixXd& c, const std::vector<Vector>& b) {
-  const MatrixXd mass = dense(chain(size, 4)), stiffness = dense(free_chain());
+  const MatrixXd mass = dense(shared_chain(4)), stiffness = dense(free_chain());
   MatrixXd a(c.rows() * size, c.rows() * size);
   Vector rhs(c.rows() * size);
   for (Eigen::Index i = 0; i < c.rows(); ++i) {
@@ -77,7 +85,7 @@ TEST(CoupledSolver, AgreesWithDenseElimination) {
 
 /// Summed over its rows, equation i is 1.M x_i = 1.b_i, since 1.K = 0.
 TEST(CoupledSolver, SumsHoldHoweverLooseTheToleranceIs) {
-  const SparseMatrix mass = chain(size, 4);
+  const SparseMatrix mass = shared_chain(4);
   for (const MatrixXd& c : {MatrixXd{{0, -0.3}, {1, 0}}, MatrixXd{{2, 1}, {0.3, 1}}}) {
     const Solved s = solve(c, {.tolerance = 1e-2});
     EXPECT_GT(s.report.residual, 1e-6);
@@ -90,7 +98,7 @@ TEST(CoupledSolver, NoticesAnIndefiniteMatrix) {
 }
 
 TEST(CoupledSolver, TakesNewCoefficients) {
-  const auto mass = std::make_shared<const SparseMatrix>(chain(size, 4)),
+  const auto mass = std::make_shared<const SparseMatrix>(shared_chain(4)),
              stiffness = std::make_shared<const SparseMatrix>(free_chain());
   CoupledSolver solver;
   std::vector<Vector> b = {random_vector(size, 1), random_vector(size, 2)};
@@ -108,8 +116,8 @@ TEST(CoupledSolver, TakesNewMatrices) {
   const auto stiffness = std::make_shared<const SparseMatrix>(free_chain());
   CoupledSolver solver;
   const std::vector<Vector> b = {random_vector(size, 1), random_vector(size, 2)};
-  solver.update(std::make_shared<const SparseMatrix>(chain(size, 8)), stiffness, c);
-  solver.update(std::make_shared<const SparseMatrix>(chain(size, 4)), stiffness, c);
+  solver.update(std::make_shared<const SparseMatrix>(shared_chain(8)), stiffness, c);
+  solver.update(std::make_shared<const SparseMatrix>(shared_chain(4)), stiffness, c);
   std::vector<Vector> x = b;
   solver.solve(b, x, {.tolerance = 1e-13});
   EXPECT_LT((x[0] - solved_densely(c, b)[0]).norm(), 1e-10);
