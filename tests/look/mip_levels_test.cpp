@@ -122,20 +122,27 @@ double mean_of(const TriangleMesh& mesh, const Pixels& image) {
   return sum / count;
 }
 
+/// A coat that is painted as thick as the field says, in white on black.
+struct PaintedTorus {
+  explicit PaintedTorus(Field field) : coat(torus(1000), remeshed_method, 0.06, field) {}
+
+  const Coat coat;
+  const Look look = painted("u");
+  const Paint paint = resolve_paint(look, coat.fields.species);
+  const Tessellation tessellation = tessellate(coat.fields, tessellation_request(look, paint));
+  const Palette palette = make_palette(paint, tessellation.samples, coat.fields.uniform);
+  const CoatSampler sampler{coat.fields, tessellation, paint};
+};
+
 /// Around charts lies what the surface has beyond their borders, not the colour of the border.
 TEST(MipLevels, DoNotBleedAcrossSeams) {
   const auto spots = [](const Point& p) { return 0.5 + 0.4 * std::sin(3 * p[0] + 1) * std::cos(3 * p[1] + 2 * p[2]); };
-  const Coat coat(torus(1000), remeshed_method, 0.06, spots);
-  const TriangleMesh& shape = *coat.fields.shape;
-  const Look look = painted("u");
-  const Paint paint = resolve_paint(look, coat.fields.species);
-  const Tessellation t = tessellate(coat.fields, tessellation_request(look, paint));
-  const Palette palette = make_palette(paint, t.samples, coat.fields.uniform);
-  const CoatSampler sampler(coat.fields, t, paint);
+  const PaintedTorus torus(spots);
+  const TriangleMesh& shape = *torus.coat.fields.shape;
   const UvLayout layout(shape.triangles, *shape.find("uv"), 256);
-  const std::vector<Pixels> levels = mip_levels(sampler, palette, shape, layout)[0];
+  const std::vector<Pixels> levels = mip_levels(torus.sampler, torus.palette, shape, layout)[0];
   ASSERT_EQ(levels.size(), 8u);
-  Pixels box = bake(sampler, palette, layout, nullptr).tiles[0].color;
+  Pixels box = bake(torus.sampler, torus.palette, layout, nullptr).tiles[0].color;
   const double mean = mean_of(shape, box);
   for (int k = 0; k < 5; ++k) {
     const Pixels& own = levels[static_cast<std::size_t>(k)];
@@ -159,20 +166,17 @@ double nearest(const Pixels& image, double u, double v) {
 /// Every level has the contrast of a single blur from the colours themselves, however many levels came before.
 TEST(MipLevels, AreBlurredByHalfATexel) {
   const auto waves = [](const Point& p) { return 0.5 + 0.4 * std::sin(5 * p[0] + 1) * std::cos(4 * p[1] + 3 * p[2]); };
-  const Coat coat(torus(1000), remeshed_method, 0.06, waves);
-  const TriangleMesh& shape = *coat.fields.shape;
-  const Look look = painted("u");
-  const Paint paint = resolve_paint(look, coat.fields.species);
-  const Tessellation t = tessellate(coat.fields, tessellation_request(look, paint));
-  const Palette palette = make_palette(paint, t.samples, coat.fields.uniform);
+  const PaintedTorus torus(waves);
+  const TriangleMesh& shape = *torus.coat.fields.shape;
+  const Tessellation& t = torus.tessellation;
   const UvLayout layout(shape.triangles, *shape.find("uv"), 512);
-  const std::vector<Pixels> levels = mip_levels(CoatSampler(coat.fields, t, paint), palette, shape, layout)[0];
+  const std::vector<Pixels> levels = mip_levels(torus.sampler, torus.palette, shape, layout)[0];
   const SurfaceBlur surface(t.triangles, t.samples.position);
   const auto spread = [&](const Vector& u) {
     const double mean = surface.mean(u);
     return std::sqrt(surface.mean(Vector((u.array() - mean).square())));
   };
-  const std::vector<double> colors = pelage::paint(t.samples, palette);
+  const std::vector<double> colors = paint(t.samples, torus.palette);
   int compared = 0;
   for (const Pixels& level : levels) {
     const double texel = texel_length(shape, *shape.find("uv"), level.width, 0.5);
