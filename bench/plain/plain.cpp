@@ -65,13 +65,13 @@ struct Start {
 };
 
 Start start(const pelage::Model& model, const std::vector<pelage::Point>& points, double unit, std::uint64_t seed) {
-  const pelage::Kinetics kinetics(model, {.positions = points, .length_unit = unit}, seed);
+  const pelage::Places places{.positions = points, .length_unit = unit};
+  const pelage::Kinetics kinetics(model, places, seed);
   const std::size_t n = points.size();
   std::vector<double> u[2], rates[2];
   for (std::size_t s = 0; s < 2; ++s) {
-    u[s].resize(n);
     rates[s].resize(n);
-    kinetics.initial(s, u[s]);
+    u[s] = pelage::initial_values(model, s, places, seed);
   }
   const std::vector<double> none(n, 0);
   const double* nothing[] = {none.data(), none.data()};

@@ -55,22 +55,17 @@ class KineticsBuilder {
       : kinetics_(kinetics), graph_(kinetics.graph_), equations_(model.equations()), places_(places), seed_(seed) {
     graph_ = equations_.graph;
     kinetics.size_ = places.positions.size();
+    kinetics.species_count_ = equations_.species.size();
     kinetics.gradient_count_ = equations_.gradients.size();
   }
 
   void build(Kinetics::Parts parts) {
     const Equations& e = equations_;
     if (parts == Kinetics::Parts::all) add_reaction();
-    const std::vector<NodeId> diffusion = join(e.prefactor, e.diffusion);
-    kinetics_.diffusion_ = program(diffusion, {});
+    kinetics_.diffusion_ = program(join(e.prefactor, e.diffusion), {});
     std::vector<NodeId> coefficients;
     for (const Flux& flux : e.fluxes) coefficients.push_back(flux.coefficient);
     kinetics_.fluxes_ = program(coefficients, {});
-    const bool starts = parts == Kinetics::Parts::all || std::ranges::any_of(diffusion, [&](NodeId id) {
-                          return (graph_[id].dependence & on_species) != 0;
-                        });
-    for (std::size_t i = 0; i < e.initial.size(); ++i)
-      kinetics_.initial_.push_back(starts ? bounded(e.initial[i], i) : std::vector<double>{0});
     for (const auto& a : e.anisotropy) {
       auto& fields = kinetics_.anisotropy_.emplace_back();
       if (a) fields = {place_field(a->theta), place_field(a->a1), place_field(a->a2)};
@@ -83,8 +78,6 @@ class KineticsBuilder {
     kinetics_.rates_ = program(e.rate, e.gradients);
     kinetics_.split_ = program(join(e.c2, e.c3), e.gradients);
     kinetics_.jacobian_ = program(e.jacobian, e.gradients);
-    for (std::size_t i = 0; i < e.pin.size(); ++i)
-      kinetics_.pin_.push_back(e.pin[i] ? bounded(*e.pin[i], i) : std::vector<double>{});
   }
 
   /// The concentration as the reaction sees it.
@@ -127,12 +120,6 @@ class KineticsBuilder {
   }
 
   std::vector<double> place_field(NodeId expression) { return evaluate_place(graph_, expression, places_, seed_); }
-
-  std::vector<double> bounded(NodeId expression, std::size_t i) {
-    std::vector<double> values = place_field(expression);
-    for (double& value : values) value = std::min(std::max(value, equations_.lower[i]), equations_.upper[i]);
-    return values;
-  }
 
   Kinetics& kinetics_;
   Graph& graph_;
@@ -224,21 +211,33 @@ Kinetics::TensorField Kinetics::anisotropy(std::size_t i) const {
   return field;
 }
 
-void Kinetics::initial(std::size_t i, std::span<double> out) const {
-  assert(out.size() == size_);
-  spread(initial_[i], out);
+namespace {
+
+/// An expression of the place alone, one value per place.
+std::vector<double> values_at(const Model& model, NodeId expression, const Places& places, std::uint64_t seed) {
+  Graph graph = model.equations().graph;
+  std::vector<double> values = evaluate_place(graph, expression, places, seed);
+  if (values.size() == 1) values.resize(places.positions.size(), values.front());
+  return values;
 }
 
-void Kinetics::pin(std::size_t i, std::span<double> out) const {
-  assert(out.size() == size_ && !pin_[i].empty());
-  spread(pin_[i], out);
+std::vector<double> bounded(const Model& model, std::size_t i, std::vector<double> values) {
+  for (double& value : values) value = std::min(std::max(value, model.lower(i)), model.upper(i));
+  return values;
+}
+
+}  // namespace
+
+std::vector<double> initial_values(const Model& model, std::size_t i, const Places& places, std::uint64_t seed) {
+  return bounded(model, i, values_at(model, model.equations().initial[i], places, seed));
+}
+
+std::vector<double> pinned_values(const Model& model, std::size_t i, const Places& places, std::uint64_t seed) {
+  return bounded(model, i, values_at(model, model.equations().pin[i].value(), places, seed));
 }
 
 std::vector<double> mask_values(const Model& model, const Places& places, std::uint64_t seed) {
-  Graph graph = model.equations().graph;
-  std::vector<double> values(places.positions.size());
-  spread(evaluate_place(graph, *model.equations().mask, places, seed), values);
-  return values;
+  return values_at(model, *model.equations().mask, places, seed);
 }
 
 }  // namespace pelage

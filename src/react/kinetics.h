@@ -48,8 +48,7 @@ using SpeciesOutput = std::span<double* const>;
 /// concentrations clamped to the bounds of the model: with b >= 0, rates use max(b, 0).
 class Kinetics {
  public:
-  /// What is known: everything, or diffusion(), fluxes() and anisotropy() alone, with initial() where a diffusion
-  /// depends on concentrations.
+  /// What is known: everything, or diffusion(), fluxes() and anisotropy() alone.
   enum class Parts { all, diffusion };
 
   /// Copies what it needs from `places`. Error(usage), located in the model, if the model uses normals,
@@ -57,10 +56,10 @@ class Kinetics {
   Kinetics(const Model& model, const Places& places, std::uint64_t seed, Parts parts = Parts::all);
 
   std::size_t size() const { return size_; }
-  std::size_t species_count() const { return initial_.size(); }
+  std::size_t species_count() const { return species_count_; }
   /// What rates(), split() and jacobian() read at every sample: the species, then Equations::gradients [1 / model
   /// length unit^2].
-  std::size_t input_count() const { return initial_.size() + gradient_count_; }
+  std::size_t input_count() const { return species_count_ + gradient_count_; }
 
   /// R of every species.
   void rates(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput out) const;
@@ -85,10 +84,6 @@ class Kinetics {
     std::vector<double> theta, a1, a2;
   };
   TensorField anisotropy(std::size_t i) const;
-  /// The concentrations of species i at time 0, for all samples, clamped to its bounds.
-  void initial(std::size_t i, std::span<double> out) const;
-  /// Those that it starts from where concentrations are held; only of species with a pin.
-  void pin(std::size_t i, std::span<double> out) const;
 
  private:
   friend class KineticsBuilder;
@@ -113,14 +108,19 @@ class Kinetics {
            std::size_t count, std::span<float* const> out) const;
   std::vector<double> scalars(const Program& program, double t) const;
 
-  std::size_t size_ = 0, gradient_count_ = 0;
+  std::size_t size_ = 0, species_count_ = 0, gradient_count_ = 0;
   Graph graph_;
-  std::vector<std::vector<double>> fields_;   ///< expressions of the place alone, one value per sample
-  std::vector<std::vector<double>> initial_;  ///< one value per sample, or one for all
-  std::vector<std::vector<double>> pin_;      ///< likewise; empty for species without
-  std::vector<std::array<std::vector<double>, 3>> anisotropy_;  ///< theta, a1, a2 likewise; empty where isotropic
+  std::vector<std::vector<double>> fields_;  ///< expressions of the place alone, one value per sample
+  std::vector<std::array<std::vector<double>, 3>>
+      anisotropy_;  ///< theta, a1, a2: one value per sample, or one for all; empty where isotropic
   Program rates_, split_, jacobian_, diffusion_, fluxes_;
 };
+
+/// The concentrations of species i at time 0, one value per place, clamped to its bounds.
+std::vector<double> initial_values(const Model& model, std::size_t i, const Places& places, std::uint64_t seed);
+
+/// Those that it starts from where concentrations are held; only of species with a pin.
+std::vector<double> pinned_values(const Model& model, std::size_t i, const Places& places, std::uint64_t seed);
 
 /// The mask of a model that holds concentrations, one value per place: not 0 where they are held.
 std::vector<double> mask_values(const Model& model, const Places& places, std::uint64_t seed);

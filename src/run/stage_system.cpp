@@ -21,6 +21,12 @@ std::vector<const double*> pointers(const std::vector<Vector>& fields) {
   return result;
 }
 
+bool diffusion_reads_species(const Model& model) {
+  for (std::size_t i = 0; i < model.species_count(); ++i)
+    if (!model.anisotropic(i) && (model.diffusion_dependence(i) & static_cast<unsigned>(on_species)) != 0) return true;
+  return false;
+}
+
 bool diffusion_varies_in_time(const Model& model, std::size_t i) {
   return !model.anisotropic(i) && (model.diffusion_dependence(i) & ~static_cast<unsigned>(on_place)) != 0;
 }
@@ -222,25 +228,37 @@ StageSystem::Coefficients StageSystem::evaluate_diffusion(const Kinetics& kineti
   return c;
 }
 
-/// The fields at the places of `kinetics`; initial ones stand in for a missing state.
-std::vector<Vector> StageSystem::fields_at(const Kinetics& kinetics, const SparseMatrix& values,
-                                           const State* state) const {
-  std::vector<Vector> fields(stage_->model.species_count());
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (state) {
-      fields[i] = values * state->now[i];
-    } else {
-      fields[i].resize(static_cast<Eigen::Index>(kinetics.size()));
-      kinetics.initial(i, std::span<double>(fields[i].data(), kinetics.size()));
-    }
+namespace {
+
+Vector as_vector(const std::vector<double>& values) {
+  return Eigen::Map<const Vector>(values.data(), std::ssize(values));
+}
+
+}  // namespace
+
+/// The fields at the samples of `rule`, to which `values` leads, for diffusions that read them; initial ones stand in
+/// for a missing state.
+std::vector<Vector> StageSystem::fields_at(SampleRule rule, const SparseMatrix& values, const State* state) const {
+  const Model& model = stage_->model;
+  std::vector<Vector> fields(model.species_count());
+  if (state) {
+    for (std::size_t i = 0; i < fields.size(); ++i) fields[i] = values * state->now[i];
+    return fields;
   }
+  if (!diffusion_reads_species(model)) {
+    for (Vector& field : fields) field = Vector::Zero(values.rows());
+    return fields;
+  }
+  const PlaceFields of_places = place_fields(model, *space_, rule, material_->attributes);
+  const Places places = of_places.places(material_->at(rule), *stage_);
+  for (std::size_t i = 0; i < fields.size(); ++i) fields[i] = as_vector(initial_values(model, i, places, stage_->seed));
   return fields;
 }
 
 std::vector<double> StageSystem::c1_at_quadrature(std::size_t species, const State* state) const {
   const Kinetics& kinetics = *quadrature_kinetics_;
-  const Vector c1 =
-      evaluate_diffusion(kinetics, fields_at(kinetics, quadrature_values_, state), state ? state->time : 0).c1[species];
+  const std::vector<Vector> fields = fields_at(SampleRule::quadrature, quadrature_values_, state);
+  const Vector c1 = evaluate_diffusion(kinetics, fields, state ? state->time : 0).c1[species];
   if (!std::ranges::all_of(c1, [](double c) { return c >= 0; }))
     throw Error(Fault::usage, "the diffusion of " + stage_->model.species_name(species) +
                                   " is negative somewhere; it must be at least 0");
@@ -251,9 +269,8 @@ std::vector<double> StageSystem::c1_at_quadrature(std::size_t species, const Sta
 constexpr double smallest_share_of_c0 = 1e-3;
 
 Vector StageSystem::c0_at_samples(std::size_t species, const State* state) const {
-  const Vector c0 =
-      evaluate_diffusion(*kinetics_, fields_at(*kinetics_, system_.sampling->values, state), state ? state->time : 0)
-          .c0[species];
+  const std::vector<Vector> fields = fields_at(stage_->stepper->samples, system_.sampling->values, state);
+  const Vector c0 = evaluate_diffusion(*kinetics_, fields, state ? state->time : 0).c0[species];
   const double largest = maximum(c0);
   if (!std::ranges::all_of(c0, [](double c) { return c >= 0; }) || !(largest > 0))
     throw Error(Fault::usage, "C0 of " + stage_->model.species_name(species) +
@@ -266,16 +283,14 @@ void StageSystem::update(const State& state) {
     if (diffusion_varies_in_time(stage_->model, i)) fill_variable(i, &state);
 }
 
-Vector StageSystem::samples_of(std::size_t i, const std::function<void(std::span<double>)>& fill) const {
-  Vector samples(system_.sampling->count());
-  fill(std::span<double>(samples.data(), static_cast<std::size_t>(samples.size())));
-  if (!samples.allFinite())
-    throw Error(Fault::usage, "model \"" + stage_->model.name() + "\": the initial values of " +
-                                  stage_->model.species_name(i) + " are not finite everywhere");
-  return samples;
-}
-
 namespace {
+
+Vector finite(const Model& model, std::size_t i, const std::vector<double>& values) {
+  if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); }))
+    throw Error(Fault::usage, "model \"" + model.name() + "\": the initial values of " + model.species_name(i) +
+                                  " are not finite everywhere");
+  return as_vector(values);
+}
 
 /// Fields that begin the same are solved for once.
 class SolvedOnce {
@@ -295,20 +310,24 @@ class SolvedOnce {
 
 /// Pinned and other values are two smooth fields; a jump between their samples would make the coefficients overshoot.
 std::vector<Vector> StageSystem::initial() const {
+  const Model& model = stage_->model;
+  const SampleRule rule = stage_->stepper->samples;
+  const PlaceFields of_places = place_fields(model, *space_, rule, material_->attributes);
+  const Places places = of_places.places(material_->at(rule), *stage_);
   std::vector<Vector> coefficients;
   SolvedOnce solved;
   const auto solve = [&](const Vector& samples) {
     return matrix_free_ ? samples : coefficients_from_samples(*system_.sampling, *system_.mass, samples);
   };
-  for (std::size_t i = 0; i < stage_->model.species_count(); ++i) {
+  for (std::size_t i = 0; i < model.species_count(); ++i) {
     Vector& u = coefficients.emplace_back(
-        solved.coefficients(samples_of(i, [&](auto out) { kinetics_->initial(i, out); }), solve));
-    if (!material_->inside.empty() && stage_->model.pinned(i)) {
-      const Vector& pin = solved.coefficients(samples_of(i, [&](auto out) { kinetics_->pin(i, out); }), solve);
+        solved.coefficients(finite(model, i, initial_values(model, i, places, stage_->seed)), solve));
+    if (!material_->inside.empty() && model.pinned(i)) {
+      const Vector& pin = solved.coefficients(finite(model, i, pinned_values(model, i, places, stage_->seed)), solve);
       for (Eigen::Index k = 0; k < u.size(); ++k)
         if (material_->inside[static_cast<std::size_t>(k)]) u[k] = pin[k];
     }
-    u = u.cwiseMax(stage_->model.lower(i)).cwiseMin(stage_->model.upper(i));
+    u = u.cwiseMax(model.lower(i)).cwiseMin(model.upper(i));
     if (system_.set_values) system_.set_values(i, 0, u);
   }
   if (!solve_algebraic(system_, 0, coefficients, 1e-10).converged)

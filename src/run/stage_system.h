@@ -41,8 +41,7 @@ class StageSystem {
   void add_borders();
   void fill_own_stiffness(std::size_t i);
   void fill_variable(std::size_t i, const State* state);
-  Vector samples_of(std::size_t i, const std::function<void(std::span<double>)>& fill) const;
-  std::vector<Vector> fields_at(const Kinetics& kinetics, const SparseMatrix& values, const State* state) const;
+  std::vector<Vector> fields_at(SampleRule rule, const SparseMatrix& values, const State* state) const;
   std::vector<double> c1_at_quadrature(std::size_t species, const State* state) const;
   Vector c0_at_samples(std::size_t species, const State* state) const;
 

@@ -186,13 +186,14 @@ void read_sheet(std::string_view bytes) { read_grid_as("input.png", bytes); }
 void evaluate(const Model& model) {
   const std::vector<Point> place = {{0.1, -0.2, 0.3}, {1, 2, 3}, {-4, 5, 6}};
   const std::vector<double> zero(place.size(), 0.0);
-  const Kinetics kinetics(model, {.positions = place, .normals = place, .k1 = zero, .k2 = zero}, 1);
+  const Places places{.positions = place, .normals = place, .k1 = zero, .k2 = zero};
+  const Kinetics kinetics(model, places, 1);
   const std::size_t n = model.species_count();
   std::vector<std::vector<double>> u(n, std::vector<double>(place.size())), rate = u;
   std::vector<const double*> in;
   std::vector<double*> out;
   for (std::size_t i = 0; i < n; ++i) {
-    kinetics.initial(i, u[i]);
+    u[i] = initial_values(model, i, places, 1);
     in.push_back(u[i].data());
     out.push_back(rate[i].data());
   }

@@ -50,9 +50,7 @@ TEST(Kinetics, ReadsThePlace) {
 TEST(Kinetics, BoundsHoldInitialValuesAndWhatReactionsSee) {
   const Model model = model_of("[species.u]\nmin = -1\nmax = 2\ndiffusion = 0\nrate = '10*u'\ninitial = 'x'\n");
   const std::vector<Point> points = {{-3, 0, 0}, {0.5, 0, 0}, {7, 0, 0}};
-  std::vector<double> initial(3);
-  Kinetics(model, {.positions = points}, 1).initial(0, initial);
-  EXPECT_EQ(initial, (std::vector<double>{-1, 0.5, 2}));
+  EXPECT_EQ(initial_values(model, 0, {.positions = points}, 1), (std::vector<double>{-1, 0.5, 2}));
   for (const auto& [u, rate] : {std::pair{-3.0, -10.0}, {0.5, 5.0}, {7.0, 20.0}})
     EXPECT_EQ(rates(model, {.positions = points}, 1, 0, u), (std::vector<double>(3, rate)));
 }
@@ -128,18 +126,17 @@ TEST(Kinetics, ReactionSeesClampedConcentrations) {
   const std::vector<Point> points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   const Kinetics kinetics(model, {.positions = points}, 1);
   const std::vector<double> u = {-2, 2, 9};
-  std::vector<double> rate(3), c2(3), c3(3), jacobian(3), initial(3, 1);
+  std::vector<double> rate(3), c2(3), c3(3), jacobian(3);
   const double* in[] = {u.data()};
   double *r[] = {rate.data()}, *p2[] = {c2.data()}, *p3[] = {c3.data()}, *j[] = {jacobian.data()};
   kinetics.rates(in, 0, 0, 3, r);
   kinetics.split(in, 0, 0, 3, p2, p3);
   kinetics.jacobian(in, 0, 0, 3, j);
-  kinetics.initial(0, initial);
   EXPECT_EQ(rate, (std::vector<double>{0, 6, 12}));
   EXPECT_EQ(c2, (std::vector<double>{1, 3, 4}));
   EXPECT_EQ(c3, (std::vector<double>{0, 0, 0}));
   EXPECT_EQ(jacobian, (std::vector<double>{1, 5, 7}));
-  EXPECT_EQ(initial, (std::vector<double>{0, 0, 0}));
+  EXPECT_EQ(initial_values(model, 0, {.positions = points}, 1), (std::vector<double>{0, 0, 0}));
 }
 
 TEST(Kinetics, DiffusionMayVary) {
@@ -200,7 +197,7 @@ TEST(Kinetics, RatesOfEveryModelInSinglePrecisionAreThoseInDouble) {
     std::vector<const float*> single_in;
     std::vector<float*> single_out;
     for (std::size_t i = 0; i < n; ++i) {
-      kinetics.initial(i, u[i]);
+      u[i] = initial_values(model, i, places, 3);
       for (std::size_t k = 0; k < samples; ++k) {
         single[i][k] = static_cast<float>(u[i][k] * (1 + 0.2 * std::sin(0.1 * static_cast<double>(k + 7 * i))));
         u[i][k] = single[i][k];
