@@ -1,5 +1,5 @@
 # Writes OUTPUT, a C++ source with the text of FILES (paths relative to ROOT) as raw string literals.
-set(text "// Made by cmake/embed.cmake from models/, recipes/ and regions/.\n#include \"catalog/embedded.h\"\n\nnamespace pelage {\n")
+set(text "// Made by cmake/embed.cmake from models/, recipes/, figures/ and others.\n#include \"catalog/embedded.h\"\n\nnamespace pelage {\n")
 string(APPEND text "const std::vector<EmbeddedFile>& embedded_files() {\n  static const std::vector<EmbeddedFile> files = {\n")
 foreach(name IN LISTS FILES)
   file(READ ${ROOT}/${name} content)

@@ -67,10 +67,11 @@ target_link_libraries(pelage PUBLIC pelage_look pelage_io)
 pelage_library(pelage_render render)  # pictures of surfaces
 target_link_libraries(pelage_render PUBLIC pelage_core PRIVATE embree)
 
-# models/*.toml, recipes, regions, patches and scenes are compiled in, so that the program needs no data directory.
+# models/*.toml, recipes, regions, patches, scenes and figures are compiled in, so that the program needs no data directory.
 file(GLOB data_files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
   ${PROJECT_SOURCE_DIR}/models/*.toml ${PROJECT_SOURCE_DIR}/recipes/*.toml ${PROJECT_SOURCE_DIR}/regions/*.toml
-  ${PROJECT_SOURCE_DIR}/patches/*.toml ${PROJECT_SOURCE_DIR}/scenes/*.toml)
+  ${PROJECT_SOURCE_DIR}/patches/*.toml ${PROJECT_SOURCE_DIR}/scenes/*.toml
+  ${PROJECT_SOURCE_DIR}/figures/*.toml)
 set(embedded_cpp ${PROJECT_BINARY_DIR}/embedded_data.cpp)
 list(TRANSFORM data_files PREPEND ${PROJECT_SOURCE_DIR}/ OUTPUT_VARIABLE data_paths)
 add_custom_command(OUTPUT ${embedded_cpp}

@@ -29,6 +29,7 @@ Command add_analyse(CLI::App& parent);
 Command add_map(CLI::App& parent);
 Command add_gallery(CLI::App& parent);
 Command add_fair(CLI::App& parent);
+Command add_figures(CLI::App& parent);
 Command add_field(CLI::App& parent);
 Command add_compare(CLI::App& parent);
 Command add_grid(CLI::App& parent);

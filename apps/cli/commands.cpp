@@ -30,7 +30,7 @@ void add_output_options(const std::vector<Command>& commands, CommonOptions& com
       command.app->add_flag("--force", common.force, "Let an output take the place of a file that is read");
       add_max_memory(*command.app, common.max_memory);
     }
-    if (can_be_repeated(name) || name == "gallery")
+    if (can_be_repeated(name) || name == "gallery" || name == "figures")
       command.app->add_flag("--no-record", common.no_record,
                             "Leave out of the files what made them, which pelage explain and again read");
   }
@@ -48,10 +48,10 @@ void add_allow_outside(CLI::App& app, bool& allowed) {
 
 std::vector<Command> add_commands(CLI::App& app, CommonOptions& common) {
   std::vector<Command> commands = {
-      add_grow(app),     add_resume(app),  add_again(app),   add_explain(app), add_check(app), add_models(app),
-      add_formulas(app), add_analyse(app), add_map(app),     add_gallery(app), add_sheet(app), add_recipes(app),
-      add_fair(app),     add_field(app),   add_compare(app), add_grid(app),    add_cells(app), add_measure(app),
-      add_unwrap(app),   add_render(app),  add_verify(app)};
+      add_grow(app),     add_resume(app),  add_again(app),  add_explain(app), add_check(app), add_models(app),
+      add_formulas(app), add_analyse(app), add_map(app),    add_gallery(app), add_sheet(app), add_figures(app),
+      add_recipes(app),  add_fair(app),    add_field(app),  add_compare(app), add_grid(app),  add_cells(app),
+      add_measure(app),  add_unwrap(app),  add_render(app), add_verify(app)};
   add_output_options(commands, common);
   add_allow_outside(app, common.outside);
   return commands;

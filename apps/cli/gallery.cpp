@@ -189,13 +189,6 @@ void require_lengths(const std::vector<GallerySubject>& subjects, const std::vec
           if (length) world_length(*length, scale_of(shape.file));
 }
 
-void make_folder(const std::string& folder) {
-  std::error_code reason;
-  std::filesystem::create_directories(folder, reason);
-  if (reason) throw Error(Fault::output, "the folder cannot be made: " + reason.message(), {folder});
-  expect_output((std::filesystem::path(folder) / "index.html").string());
-}
-
 /// "2 of 12 pictures failed: ..." for the first of them.
 void report_failures(const std::vector<Job>& jobs, const std::string& folder) {
   const Job* first = nullptr;
@@ -231,13 +224,12 @@ void gallery(const GalleryOptions& options) {
   require_lengths(subjects, shapes);
   std::vector<GalleryEntry> entries = empty_entries(subjects, shapes);
   require_distinct_files(entries);
-  make_folder(options.folder);
+  const std::string index = page_in(options.folder);
   warn_of_valences(shapes);
   catch_interrupts();
   const ThreadLimit threads(options.threads);
   ProgressBar bar(options.quiet ? ProgressBar::Style::none : ProgressBar::style_of_stderr());
   const std::vector<Job> jobs = jobs_for(subjects, shapes, entries);
-  const std::string index = (std::filesystem::path(options.folder) / "index.html").string();
   const auto write_index = [&] {
     write_file(index, gallery_page(options.recipes ? "Recipes" : "Models", entries, options.picture_size));
     publish_outputs();

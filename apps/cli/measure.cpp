@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <numbers>
 
-#include "base/suggest.h"
 #include "command.h"
-#include "discretise/cell_space.h"
 #include "input_unit.h"
 #include "io/png_writer.h"
 #include "look/plot.h"
 #include "look/ticks.h"
-#include "measure/node_pattern.h"
-#include "measure/pattern.h"
-#include "shape/cells.h"
+#include "measured_coat.h"
 #include "text.h"
 
 namespace pelage {
@@ -26,57 +21,6 @@ struct MeasureOptions {
   std::optional<double> level;
   bool json = false;
 };
-
-/// What a pattern lies on: a cloud has no triangles, a volume is more than they show.
-enum class Ground { surface, cloud, volume };
-
-Ground ground_of(const ShapeFile& file) {
-  const Grid* grid = as<Grid>(file.nodes);
-  if (as<TetMesh>(file.nodes) || (grid && grid->dimension() == 3)) return Ground::volume;
-  return file.mesh.triangles.empty() && !file.nodes ? Ground::cloud : Ground::surface;
-}
-
-PatternMeasures measured(const ShapeFile& file, const Attribute& field, const std::optional<double>& level) {
-  constexpr int in_space = 3, on_surface = 2;
-  switch (ground_of(file)) {
-    case Ground::volume: {
-      const Method& method = as<TetMesh>(file.nodes) ? tets_method : grid_method;
-      return measure_nodes(*method.make_node_space(*file.nodes), in_space, field.values, level);
-    }
-    case Ground::cloud: {
-      const Cells cells = cells_at_points(std::make_shared<const TriangleMesh>(file.mesh));
-      std::vector<double> values;
-      for (const std::int32_t point : cells.face) values.push_back(field.values[static_cast<std::size_t>(point)]);
-      return measure_nodes(CellSpace(cells), on_surface, values, level);
-    }
-    case Ground::surface:
-      break;
-  }
-  return measure_pattern(file.mesh, field.values, level);
-}
-
-/// What can be measured: a number at every vertex.
-std::vector<const Attribute*> fields_of(const TriangleMesh& mesh) {
-  std::vector<const Attribute*> fields;
-  for (const Attribute& a : mesh.attributes)
-    if (a.domain == Domain::vertex && a.components == 1) fields.push_back(&a);
-  return fields;
-}
-
-const Attribute& chosen_field(const TriangleMesh& mesh, const MeasureOptions& options) {
-  const std::vector<const Attribute*> fields = fields_of(mesh);
-  if (fields.empty())
-    throw Error(Fault::input,
-                "there is no number at the vertices to measure; a coat in .vtp, .ply, .vtu or .vti has its species",
-                {options.shape});
-  if (options.field.empty()) return *fields.front();
-  std::vector<std::string> names;
-  for (const Attribute* field : fields) {
-    if (field->name == options.field) return *field;
-    names.push_back(field->name);
-  }
-  throw Error(Fault::usage, "--field: " + unknown_name("field", options.field, names));
-}
 
 Json to_json(const PatternPhase& phase) {
   return {{"parts", phase.parts}, {"share", json_number(phase.share)}, {"width", json_number(phase.width)}};
@@ -92,8 +36,6 @@ Json to_json(const Spots& spots) {
 }
 
 const char* size_name(Ground ground) { return ground == Ground::volume ? "volume" : "area"; }
-
-double wavelength_of(double wave_number) { return 2 * std::numbers::pi / wave_number; }
 
 Json to_json(const Spectrum& s) {
   if (s.empty()) return nullptr;
@@ -202,8 +144,8 @@ void run_measure(const MeasureOptions& options) {
   const ShapeFile file = read_shape(options.shape, {});
   const Ground ground = ground_of(file);
   if (!options.plot.empty()) check_picture_path(options.plot);
-  const Attribute& field = chosen_field(file.mesh, options);
-  const PatternMeasures measures = measured(file, field, options.level);
+  const Attribute& field = field_of(file.mesh, options.field, options.shape);
+  const PatternMeasures measures = measure_coat(file, field, options.level);
   if (!options.plot.empty()) {
     if (measures.spectrum.empty())
       throw Error(Fault::input, "there is no spectrum to plot: the field is the same everywhere", {options.shape});

@@ -1,9 +1,12 @@
 #include "parts.h"
 
+#include <filesystem>
 #include <set>
 
 #include "catalog/images.h"
+#include "io/atomic_file.h"
 #include "io/output_set.h"
+#include "pelage/error.h"
 
 namespace pelage {
 
@@ -19,6 +22,15 @@ std::string where_to_go_on(const Journal& journal, std::size_t all, const std::s
   if (journal.size() == 0) return "";
   return "; " + std::to_string(journal.size()) + " of " + std::to_string(all) + " " + what + " are kept in " +
          journal.path() + ", and the same command goes on from there";
+}
+
+std::string page_in(const std::string& folder) {
+  std::error_code reason;
+  std::filesystem::create_directories(folder, reason);
+  if (reason) throw Error(Fault::output, "the folder cannot be made: " + reason.message(), {folder});
+  const std::string index = (std::filesystem::path(folder) / "index.html").string();
+  expect_output(index);
+  return index;
 }
 
 }  // namespace pelage

@@ -16,4 +16,7 @@ std::string record_with_images(const std::vector<const Recipe*>& recipes);
 /// "; 5 of 12 tiles are kept in FILE, and the same command goes on from there", or nothing where none is.
 std::string where_to_go_on(const Journal& journal, std::size_t all, const std::string& what);
 
+/// The path of index.html in a folder, which is made if need be, as an output of the command. Error(Fault::output).
+std::string page_in(const std::string& folder);
+
 }  // namespace pelage

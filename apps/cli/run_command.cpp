@@ -55,6 +55,11 @@ class CommandLine {
 
   const Command& parse(const std::vector<std::string>& words) { return parse_arguments(app_, commands_, words); }
   CLI::App& app() { return app_; }
+  /// The same words without a word on stdout, where the command knows how.
+  std::vector<std::string> quiet(std::vector<std::string> words) {
+    if (app_.get_subcommand(words[0])->get_option_no_throw("--quiet")) words.push_back("--quiet");
+    return words;
+  }
   const CommonOptions& common() const { return common_; }
 
  private:
@@ -108,12 +113,20 @@ int run_command(std::vector<std::string> words) {
   return used->exit_code ? used->exit_code() : 0;
 }
 
+std::vector<std::string> words_of(const std::string& command) { return CLI::detail::split_up(command); }
+
+void check_command(const std::vector<std::string>& words) {
+  CommandLine line;
+  line.parse(words);
+}
+
+void run_quietly(std::vector<std::string> words) { run_command(CommandLine().quiet(std::move(words))); }
+
 void repeat_command(const Repetition& repetition) {
   require_recorded(repetition.words);
   CommandLine line;
-  std::vector<std::string> words = words_to_repeat(repetition.words, repetition.folder, repetition.file);
-  if (line.app().get_subcommand(words[0])->get_option_no_throw("--quiet")) words.push_back("--quiet");
-  const Command& command = line.parse(words);
+  const Command& command =
+      line.parse(line.quiet(words_to_repeat(repetition.words, repetition.folder, repetition.file)));
   Record record = record_of(command);
   record.version = repetition.version;
   record.architecture = repetition.architecture;

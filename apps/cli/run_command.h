@@ -11,6 +11,13 @@ namespace pelage {
 /// Runs a command; its outputs appear together at its end, or not at all. Returns the exit code.
 int run_command(std::vector<std::string> words);
 
+/// The words of a command as it is typed: what stands in quotes is one.
+std::vector<std::string> words_of(const std::string& command);
+/// Error(Fault::usage) for words that run_command() would refuse, without running it.
+void check_command(const std::vector<std::string>& words);
+/// run_command() without a word on stdout, in the middle of another command.
+void run_quietly(std::vector<std::string> words);
+
 /// The record of a file, which may come from anywhere, made to do its work again.
 struct Repetition {
   std::vector<std::string> words;  ///< of the record

@@ -1,0 +1,28 @@
+#pragma once
+// The pattern in a file, as pelage measure sees it.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/pattern.h"
+#include "pelage/io.h"
+
+namespace pelage {
+
+/// What a pattern lies on: a cloud has no triangles, a volume is more than they show.
+enum class Ground { surface, cloud, volume };
+Ground ground_of(const ShapeFile& file);
+
+/// What can be measured: a number at every vertex.
+std::vector<const Attribute*> fields_of(const TriangleMesh& mesh);
+/// That of a name, or the first without one. Error where there is none; `path`: of the file.
+const Attribute& field_of(const TriangleMesh& mesh, const std::string& name, const std::string& path);
+
+/// `level`: where parts end, see measure_pattern().
+PatternMeasures measure_coat(const ShapeFile& file, const Attribute& field, const std::optional<double>& level);
+
+/// [length unit] of a wave number [radians / length unit].
+double wavelength_of(double wave_number);
+
+}  // namespace pelage
