@@ -6,6 +6,7 @@
 #include "input_unit.h"
 #include "io/file_bytes.h"
 #include "look/coat_sampler.h"
+#include "look/cut_tessellation.h"
 #include "look/dress.h"
 #include "look/mip_levels.h"
 #include "look/onto_mesh.h"
@@ -152,7 +153,8 @@ TriangleMesh dressed(const CoatFields& fields, const CoatRequest& request, const
                      GrowReport& report) {
   const PrintOptions& print = request.options.print;
   add_holes(paint, print);
-  Tessellation t = tessellate(fields, tessellation_request(request.look, paint));
+  Tessellation t = print.any() ? tessellate(fields, tessellation_request(request.look, paint))
+                               : tessellate_for(fields, request.look, paint);
   for (const std::string& line : clamped_channels(t.samples, paint)) report.warning(line);
   const ShapeScale scale = fields.nodes ? scale_of(*fields.nodes, shape) : scale_of(shape);
   PrintedCoat printed = printed_coat(std::move(t), paint, fields.uniform, print, scale);

@@ -1,6 +1,7 @@
 #include <optional>
 
 #include "catalog/bind.h"
+#include "look/cut_tessellation.h"
 #include "look/dress.h"
 #include "pelage/grow.h"
 #include "run/run.h"
@@ -43,6 +44,11 @@ struct Growth::Parts {
   Look look;
   Progress progress;
   TessellationCache tessellations = {};
+
+  Tessellation tessellation(const CoatFields& fields, const Look& as_asked, const Paint& paint) {
+    const Tessellation& made = tessellations.of(run, tessellation_request(as_asked, paint));
+    return may_be_cut(fields, as_asked) ? cut_along_layers(made, paint) : made;
+  }
 };
 
 TriangleMesh grow(const TriangleMesh& shape, const Recipe& recipe, const Progress& progress) {
@@ -95,7 +101,7 @@ TriangleMesh Growth::dress() const { return dress(parts_->look); }
 TriangleMesh Growth::dress(const Look& look) const {
   const CoatFields fields = parts_->run.fields();
   const Paint paint = resolve_paint(look, fields.species);
-  return pelage::dress(parts_->tessellations.of(parts_->run, tessellation_request(look, paint)), paint, fields.uniform);
+  return pelage::dress(parts_->tessellation(fields, look, paint), paint, fields.uniform);
 }
 
 Grid Growth::dress_grid() const {
@@ -108,7 +114,7 @@ Grid Growth::dress_grid() const {
 std::vector<Growth::Field> Growth::fields() const {
   const CoatFields fields = parts_->run.fields();
   const Look& look = parts_->look;
-  const Tessellation& t = parts_->tessellations.of(parts_->run, tessellation_request(look));
+  const Tessellation t = parts_->tessellation(fields, look, resolve_paint(look, fields.species));
   std::vector<Field> named;
   for (std::size_t i = 0; i < fields.species.size(); ++i) named.push_back({fields.species[i], t.samples.fields[i]});
   return named;

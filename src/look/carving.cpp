@@ -8,6 +8,7 @@
 #include "base/number.h"
 #include "base/suggest.h"
 #include "look/comparison.h"
+#include "look/cut_tessellation.h"
 #include "look/solid_tessellation.h"
 #include "pelage/error.h"
 #include "shape/grid.h"
@@ -213,7 +214,7 @@ TriangleMesh dress_body(const CoatFields& fields, const Look& look, const Carvin
   const TessellationRequest request = tessellation_request(look, paint);
   const Tessellation nodes = tessellate_nodes(fields, request);
   const Palette palette = make_palette(paint, nodes.samples, fields.uniform);
-  if (carving.empty() && shows_surface(fields.nodes)) return dress(tessellate(fields, request), palette);
+  if (carving.empty() && shows_surface(fields.nodes)) return dress(tessellate_for(fields, look, paint), palette);
   std::vector<Cut> cuts = cuts_of(carving.cuts, places_of(nodes));
   if (carving.part) cuts.insert(cuts.begin(), cut_of(*carving.part, fields));
   const CarvedBody body = body_of(fields, cuts);

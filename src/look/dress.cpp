@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "look/cut_tessellation.h"
 #include "shape/normals.h"
 #include "shape/relief.h"
 
@@ -98,7 +99,7 @@ TriangleMesh dress_nodes(const CoatFields& fields, const Look& look) {
 
 TriangleMesh dress(const CoatFields& fields, const Look& look) {
   const Paint paint = resolve_paint(look, fields.species);
-  return dress(tessellate(fields, tessellation_request(look, paint)), paint, fields.uniform);
+  return dress(tessellate_for(fields, look, paint), paint, fields.uniform);
 }
 
 }  // namespace pelage

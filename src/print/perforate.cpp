@@ -25,40 +25,7 @@ constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-Point between(const Point& a, const Point& b, double part) {
-  return {a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]), a[2] + part * (b[2] - a[2])};
-}
-
 double length_between(const Point& a, const Point& b) { return length(difference(b, a)); }
-
-/// Where functions with different signs at the ends of edges are 0, by regula falsi with halved weights (Illinois).
-std::vector<CutPlace> roots(std::vector<CutPlace> edges, std::vector<double> at_from, std::vector<double> at_to,
-                            const LevelFunction& level) {
-  constexpr int most_steps = 12;
-  constexpr double exact_enough = 1e-9;
-  const std::size_t n = edges.size();
-  std::vector<double> low(n, 0.0), high(n, 1.0);
-  std::vector<int> kept(n, 0);
-  for (int step = 0; step < most_steps; ++step) {
-    double widest = 0;
-    for (std::size_t e = 0; e < n; ++e) {
-      const double before = edges[e].part, drop = at_from[e] - at_to[e];
-      edges[e].part = drop != 0 ? std::clamp(low[e] + (high[e] - low[e]) * at_from[e] / drop, low[e], high[e]) : low[e];
-      widest = std::max(widest, std::abs(edges[e].part - before));
-    }
-    if (step > 0 && widest < exact_enough) break;
-    const std::vector<double> values = level(edges);
-    for (std::size_t e = 0; e < n; ++e) {
-      const bool like_from = (values[e] > 0) == (at_from[e] > 0);
-      (like_from ? low : high)[e] = edges[e].part;
-      (like_from ? at_from : at_to)[e] = values[e];
-      const int side = like_from ? 1 : -1;
-      if (kept[e] == side) (like_from ? at_to : at_from)[e] /= 2;
-      kept[e] = side;
-    }
-  }
-  return edges;
-}
 
 class Perforator {
  public:
@@ -205,7 +172,7 @@ class Perforator {
       number_of_[e] = checked_count<std::int32_t>(places_.size(), "vertices");
       places_.push_back({a, b, std::clamp(crossing_[e], least_part, 1 - least_part)});
     }
-    for (const CutPlace& p : places_) moved_.push_back(between(points_[at(p.from)], points_[at(p.to)], p.part));
+    for (const CutPlace& p : places_) moved_.push_back(on_way(points_[at(p.from)], points_[at(p.to)], p.part));
   }
 
   void cut(std::size_t t) {
@@ -313,46 +280,6 @@ class Perforator {
 };
 
 }  // namespace
-
-std::vector<double> PerforatedSurface::at_vertices(const std::vector<double>& values, std::size_t components) const {
-  std::vector<double> result;
-  result.reserve(vertex.size() * components);
-  for (const auto& [from, to, part] : vertex)
-    for (std::size_t k = 0; k < components; ++k) {
-      const double a = values[components * at(from) + k], b = values[components * at(to) + k];
-      result.push_back(a + part * (b - a));
-    }
-  return result;
-}
-
-std::vector<Point> PerforatedSurface::at_vertices(const std::vector<Point>& old) const {
-  std::vector<Point> result;
-  result.reserve(vertex.size());
-  for (const auto& [from, to, part] : vertex) result.push_back(between(old[at(from)], old[at(to)], part));
-  return result;
-}
-
-Attribute PerforatedSurface::of(const Attribute& a) const {
-  Attribute result{a.name, a.components, a.domain, {}, a.type, a.labels};
-  const auto n = static_cast<std::size_t>(a.components);
-  const bool whole = !a.labels.empty() || is_integer(a.type);
-  const auto take = [&](std::size_t from, std::size_t to, double part) {
-    if (whole) part = part < 0.5 ? 0 : 1;
-    for (std::size_t k = 0; k < n; ++k) {
-      const double x = a.values[n * from + k], y = a.values[n * to + k];
-      result.values.push_back(part == 0 ? x : part == 1 ? y : x + part * (y - x));
-    }
-  };
-  if (a.domain == Domain::vertex)
-    for (const auto& [from, to, part] : vertex) take(at(from), at(to), part);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const std::size_t old = at(parent[t]);
-    if (a.domain == Domain::face) take(old, old, 0);
-    for (std::size_t k = 0; k < 3 && a.domain == Domain::corner; ++k)
-      take(3 * old + at(corners[t][k].from), 3 * old + at(corners[t][k].to), corners[t][k].part);
-  }
-  return result;
-}
 
 PerforatedSurface perforated(const std::vector<Triangle>& triangles, const std::vector<Point>& points,
                              const LevelFunction& level) {

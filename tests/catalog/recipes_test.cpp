@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "catalog/bind.h"
@@ -48,6 +49,7 @@ TEST_P(EveryRecipe, RunsSmallAndIsDressed) {
 /// A connected set of vertices.
 struct Spot {
   Point centre{};
+  std::vector<Index> members;
   bool large = false;  ///< some of it is frozen
 };
 
@@ -58,16 +60,16 @@ std::vector<Spot> spots(const Topology& topology, const std::vector<Point>& posi
   for (Index first = 0; first < topology.vertex_count; ++first) {
     if (!std::exchange(in_spot[static_cast<std::size_t>(first)], 0)) continue;
     Spot& spot = found.emplace_back();
-    std::vector<Index> members = {first};
-    for (std::size_t k = 0; k < members.size(); ++k) {
-      const auto member = static_cast<std::size_t>(members[k]);
+    spot.members = {first};
+    for (std::size_t k = 0; k < spot.members.size(); ++k) {
+      const auto member = static_cast<std::size_t>(spot.members[k]);
       spot.large |= frozen[member] != 0;
       for (std::size_t d = 0; d < 3; ++d) spot.centre[d] += position[member][d];
-      topology.one_ring(members[k], ring);
+      topology.one_ring(spot.members[k], ring);
       for (const Index n : ring)
-        if (std::exchange(in_spot[static_cast<std::size_t>(n)], 0)) members.push_back(n);
+        if (std::exchange(in_spot[static_cast<std::size_t>(n)], 0)) spot.members.push_back(n);
     }
-    for (double& c : spot.centre) c /= static_cast<double>(members.size());
+    for (double& c : spot.centre) c /= static_cast<double>(spot.members.size());
   }
   return found;
 }
@@ -82,8 +84,9 @@ constexpr double large_spacing = 0.7;
 
 /// A cascade of spots on the unit sphere.
 struct Cascade {
-  std::vector<Point> large, small;   ///< centres; spots that have grown onto a large one are part of it
-  std::vector<Point> outside, dark;  ///< vertices outside of the frozen regions, and those of them in spots
+  std::vector<Point> large, small;        ///< centres; spots that have grown onto a large one are part of it
+  std::vector<Point> outside, dark;       ///< vertices outside of the frozen regions, and those of them in spots
+  std::vector<std::vector<Point>> discs;  ///< the frozen regions
   explicit Cascade(const std::string& name) {
     Recipe recipe = load_recipe(name);
     const double factor = large_spacing / recipe.stages[0].size->value.value;
@@ -103,6 +106,10 @@ struct Cascade {
     }
     for (const Spot& s : spots(run.world().topology(), position, in_spot, frozen))
       (s.large ? large : small).push_back(s.centre);
+    for (const Spot& s : spots(run.world().topology(), position, frozen, frozen)) {
+      discs.emplace_back();
+      for (const Index v : s.members) discs.back().push_back(position[static_cast<std::size_t>(v)]);
+    }
   }
 };
 
@@ -114,16 +121,35 @@ TEST(Cascades, SmallSpotsOfTheCheetahKeepAwayFromTheLargeOnes) {
   for (const Point& p : cheetah.small) EXPECT_GE(distance_to_nearest(p, cheetah.large), 0.48 * large_spacing);
 }
 
-TEST(Cascades, SmallSpotsOfTheLeopardRingTheLargeOnes) {
+/// In how many of 24 directions from the middle of a disc on the unit sphere something dark lies within `reach` of it.
+int dark_directions(const std::vector<Point>& disc, const std::vector<Point>& dark, double reach) {
+  Point middle{};
+  for (const Point& p : disc)
+    for (std::size_t d = 0; d < 3; ++d) middle[d] += p[d];
+  middle = unit(middle);
+  const Point right = unit(cross(middle, std::abs(middle[0]) < 0.7 ? Point{1, 0, 0} : Point{0, 1, 0}));
+  const Point up = cross(middle, right);
+  std::set<int> found;
+  for (const Point& p : dark)
+    if (distance_to_nearest(p, disc) < reach)
+      found.insert(static_cast<int>((std::atan2(dot(p, up), dot(p, right)) / std::numbers::pi + 1) * 11.999));
+  return static_cast<int>(found.size());
+}
+
+/// Disc by disc: dark within half a spacing of the small spots in most directions.
+TEST(Cascades, EveryLargeSpotOfTheLeopardIsRinged) {
   const Cascade leopard("leopard");
-  EXPECT_GT(leopard.large.size(), 15);
-  const auto share_near = [&](const std::vector<Point>& points) {
-    const auto near = std::ranges::count_if(
-        points, [&](const Point& p) { return distance_to_nearest(p, leopard.large) < 0.43 * large_spacing; });
-    return static_cast<double>(near) / static_cast<double>(points.size());
-  };
-  EXPECT_GT(share_near(leopard.dark), 1.3 * share_near(leopard.outside))
-      << share_near(leopard.dark) << ' ' << share_near(leopard.outside);
+  EXPECT_GT(leopard.discs.size(), 15);
+  const Recipe recipe = load_recipe("leopard");
+  const double small_spacing = large_spacing * recipe.stages[1].size->value.value / recipe.stages[0].size->value.value;
+  double sum = 0;
+  for (const std::vector<Point>& disc : leopard.discs) {
+    const int ringed = dark_directions(disc, leopard.dark, 0.5 * small_spacing);
+    EXPECT_GE(ringed, 14) << "a disc of " << disc.size() << " vertices";
+    sum += ringed;
+  }
+  RecordProperty("mean", std::to_string(sum / static_cast<double>(leopard.discs.size())));
+  EXPECT_GT(sum / static_cast<double>(leopard.discs.size()), 20);
 }
 
 /// Mean angle in degrees between the stripes of a finished run and the field they follow, weighted with the squared
