@@ -138,6 +138,11 @@ void add_pattern_options(CLI::App& app, GrowOptions& o) {
       ->group(group);
   app.add_flag("--interpolate", o.interpolate, "Let the smooth surface pass through the vertices of the shape")
       ->group(group);
+  app.add_option("--crease", o.crease,
+                 "Keep edges sharp where the shape bends by more than so many degrees: 40 for most machine parts")
+      ->type_name("DEGREES")
+      ->check(positive_number())
+      ->group(group);
 }
 
 void add_time_options(CLI::App& app, GrowOptions& o) {
@@ -518,6 +523,7 @@ void apply(const GrowOptions& o, std::vector<Stage>& stages) {
     override(o.stationary, stage.stationary);
     override(o.seed, stage.seed);
     stage.interpolate |= o.interpolate;
+    if (o.crease) stage.crease = Given<double>{*o.crease, {"--crease"}};
   }
 }
 

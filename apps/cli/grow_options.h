@@ -23,7 +23,7 @@ struct GrowOptions {
   std::vector<std::string> textures;  ///< "NAME=FILE"
   std::vector<std::string> channels;  ///< "CHANNEL=FORMULA"
   std::optional<double> input_unit;   ///< metres
-  std::optional<double> step, until, stationary, growth;
+  std::optional<double> step, until, stationary, growth, crease;
   double every_minutes = 5;  ///< between checkpoints
   std::optional<std::int64_t> steps, every;
   std::optional<std::uint64_t> seed;

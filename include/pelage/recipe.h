@@ -104,7 +104,8 @@ struct Stage {
   std::optional<double>
       stationary;  ///< stop when the pattern changes by less than this fraction per unit of time; 0: never
   std::uint64_t seed = 1;
-  bool interpolate = false;  ///< the limit surface passes through the vertices of the shape
+  bool interpolate = false;             ///< the limit surface passes through the vertices of the shape
+  std::optional<Given<double>> crease;  ///< [degrees] edges where the shape bends by more than this stay sharp
 };
 
 /// How the surface moves while the pattern grows on it. By default it does not.

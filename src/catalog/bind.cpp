@@ -18,6 +18,7 @@
 #include "run/material.h"
 #include "run/random_points.h"
 #include "shape/cells.h"
+#include "shape/creases.h"
 #include "shape/finding.h"
 #include "shape/grid.h"
 #include "shape/refine.h"
@@ -219,6 +220,22 @@ void require_no_lattice(const Plan& plan) {
                   s.asked.stepper.where);
 }
 
+void require_no_creases(const Plan& plan) {
+  if (plan.crease)
+    throw Error(Fault::usage,
+                "creases are those of the smooth surface of a mesh, for the methods \"" +
+                    std::string(remeshed_method.name) + "\" and \"" + std::string(loop_method.name) +
+                    "\"; leave them out here",
+                plan.crease->where);
+}
+
+/// Of a shape that is faired they are found where they are going to be.
+Creases creases_of(const Plan& plan, const TriangleMesh& shape) {
+  if (!plan.crease) return {};
+  const std::vector<Point> points = plan.fair ? fair(shape, *plan.fair).mesh.points : shape.points;
+  return creases_above(plan.crease->value, make_topology(points.size(), shape.triangles), points);
+}
+
 /// Loop elements are made for moderate valences: where the recipe does not insist, others take their place.
 const Method* fitting_method(const Plan& plan, const TriangleMesh& shape, std::vector<std::string>& warnings) {
   if (!plan.method->make_space)
@@ -298,6 +315,7 @@ Program bind_plan(const Plan& plan, std::shared_ptr<const NodeShape> nodes, Tria
                   std::vector<Texture> images) {
   const Grid* grid = as<Grid>(nodes);
   if (!grid || !grid->even()) require_no_lattice(plan);
+  require_no_creases(plan);
   if (grid && !plan.textures.empty() && !mesh.find("uv")) mesh.set(uv_of(*grid));
   const ShapeScale scale = scale_of(*nodes, mesh);
   require_fitting(plan, mesh, scale);
@@ -426,6 +444,11 @@ Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> ima
   require_fitting(plan, shape, scale);
   Program p = begin_program(plan, std::move(images));
   p.method = fitting_method(plan, shape, p.warnings);
+  if (!p.method->smooth) require_no_creases(plan);
+  p.creases = creases_of(plan, shape);
+  if (plan.crease && !p.creases.any())
+    p.warnings.push_back("no edge of the shape bends by more than " + number(plan.crease->value) +
+                         " degrees: there are no creases");
   p.shape = std::make_shared<const TriangleMesh>(std::move(shape));
   bind_surface(plan, scale, p);
   count_iterations(plan, p);

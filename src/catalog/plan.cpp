@@ -317,6 +317,16 @@ Look shown_look(const Recipe& recipe) {
   return look;
 }
 
+namespace {
+
+std::optional<Given<double>> checked_crease(const std::optional<Given<double>>& degrees) {
+  if (degrees && !(degrees->value > 0 && degrees->value < 180))
+    throw Error(Fault::usage, "creases are told by an angle between 0 and 180 degrees", degrees->where);
+  return degrees;
+}
+
+}  // namespace
+
 Plan plan(const Recipe& recipe, const Components& components) {
   require_stage_names(recipe.stages);
   Plan p;
@@ -331,6 +341,7 @@ Plan plan(const Recipe& recipe, const Components& components) {
     p.stages.push_back(plan_stage(stage, recipe, *p.method, p.stages, components));
     p.until += p.stages.back().until;
     p.interpolate |= stage.interpolate;
+    if (!p.crease) p.crease = checked_crease(stage.crease);
   }
   require_texture_names(recipe.textures, p.stages.back().model);
   p.paint = resolve_paint(shown_look(recipe), shown_fields(p.stages));

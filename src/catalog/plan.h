@@ -35,6 +35,7 @@ struct Plan {
   bool method_asked = false;  ///< by the recipe: then it is not exchanged for one that suits the shape better
   const Quality* quality = nullptr;
   bool interpolate = false;
+  std::optional<Given<double>> crease;  ///< angle [degrees]
   std::vector<TextureFile> textures;
   std::vector<PlannedStage> stages;
   Motion motion;

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "discretise/box_spline.h"
+#include "shape/creases.h"
 #include "shape/loop_subdivision.h"
 
 namespace pelage {
@@ -37,28 +38,59 @@ std::vector<std::size_t> other_ranks(const CornerType& c) {
   return ranks;
 }
 
-void read_corner(const Topology& t, Index halfedge, PatchCorner& corner) {
+Index clockwise(const Topology& t, Index h) {
+  const Index twin = t.twin[static_cast<std::size_t>(h)];
+  return twin < 0 ? -1 : next_halfedge(twin);
+}
+
+/// Sharp edges at the origin of a half-edge inside: 0, 1, or 2 for more.
+int sharp_edges(const Topology& t, Index halfedge) {
+  if (!t.creases.any()) return 0;
+  int count = 0;
+  Index h = halfedge;
+  do {
+    if (t.sharp(h)) ++count;
+    h = t.rotate(h);
+  } while (h != halfedge && count < 2);
+  return count;
+}
+
+/// Is the corner the end of a crease inside the surface?
+bool is_dart(const Topology& t, Index halfedge) {
+  return !t.on_boundary(t.origin(halfedge)) && sharp_edges(t, halfedge) == 1;
+}
+
+/// `whole`: also the neighbours beyond creases.
+void read_corner(const Topology& t, Index halfedge, bool whole, PatchCorner& corner) {
   const Index vertex = t.origin(halfedge);
   corner.type = {};
+  corner.type.fixed = t.creases.any() && t.creases.corner[static_cast<std::size_t>(vertex)];
   corner.ring.clear();
+  const bool open = t.on_boundary(vertex), sector = !whole && (open || sharp_edges(t, halfedge) == 2);
   Index start = halfedge;
-  if (t.on_boundary(vertex)) {
+  if (sector && t.creases.any())
+    while (!t.sharp(start)) start = clockwise(t, start);
+  else if (open)
     start = t.outgoing[static_cast<std::size_t>(vertex)];
-    corner.type.position = 0;
-  }
+  if (sector || open) corner.type.position = 0;
   for (Index h = start; h >= 0;) {
-    if (h == halfedge && corner.type.position >= 0) corner.type.position = static_cast<Index>(corner.ring.size());
+    const auto rank = static_cast<Index>(corner.ring.size());
+    if (h == halfedge && corner.type.position >= 0) corner.type.position = rank;
+    if (whole && t.twin[static_cast<std::size_t>(h)] >= 0 && t.sharp(h)) corner.type.creases.push_back(rank);
     corner.ring.push_back(t.target(h));
     const Index following = t.rotate(h);
-    if (following < 0) corner.ring.push_back(t.origin(previous_halfedge(h)));
-    if (following == start) break;
+    const bool ends = following < 0 || (sector && t.sharp(previous_halfedge(h)));
+    if (ends) corner.ring.push_back(t.origin(previous_halfedge(h)));
+    if (ends || following == start) break;
     h = following;
   }
   corner.type.valence = static_cast<Index>(corner.ring.size());
 }
 
 void read_corners(const Topology& t, Index face, std::array<PatchCorner, 3>& corners) {
-  for (Index i = 0; i < 3; ++i) read_corner(t, 3 * face + i, corners[static_cast<std::size_t>(i)]);
+  bool whole = false;
+  for (Index i = 0; i < 3; ++i) whole |= t.creases.any() && is_dart(t, 3 * face + i);
+  for (Index i = 0; i < 3; ++i) read_corner(t, 3 * face + i, whole, corners[static_cast<std::size_t>(i)]);
 }
 
 /// Replaces a point (v, w) of a triangle by its parameters in the child that contains it, and returns the child.
@@ -81,7 +113,9 @@ std::size_t descend(double& v, double& w) {
 
 /// A polynomial patch has corners that are inside with valence 6, or on the boundary with three triangles.
 bool is_regular(const PatchSignature& s) {
-  return std::all_of(s.begin(), s.end(), [](const CornerType& c) { return c.valence == (c.position < 0 ? 6 : 4); });
+  return std::all_of(s.begin(), s.end(), [](const CornerType& c) {
+    return c.valence == (c.position < 0 ? 6 : 4) && !c.fixed && c.creases.empty();
+  });
 }
 
 using Row = Eigen::RowVectorXd;
@@ -146,6 +180,12 @@ void LoopPatches::list_triangles(PatchClass& patch, const RingNumbers& id) {
   }
 }
 
+void LoopPatches::list_creases(PatchClass& patch, const RingNumbers& id) {
+  for (std::size_t i = 0; i < 3; ++i)
+    for (const Index rank : patch.signature[i].creases)
+      patch.creases.push_back({static_cast<Index>(i), id[i][static_cast<std::size_t>(rank)]});
+}
+
 void LoopPatches::expand_to_box_spline(PatchClass& patch, const RingNumbers& id) {
   const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(patch.size, patch.size);
   patch.expansion.resize(static_cast<Eigen::Index>(regular_points), patch.size);
@@ -167,15 +207,32 @@ LoopPatches::PatchClass LoopPatches::make_class(const PatchSignature& signature)
   RingNumbers id;
   number_points(patch, id);
   list_triangles(patch, id);
+  list_creases(patch, id);
   if (is_regular(signature)) expand_to_box_spline(patch, id);
   return patch;
 }
 
+Topology LoopPatches::topology_of(const PatchClass& patch) {
+  Topology t = make_topology(static_cast<std::size_t>(patch.size), patch.triangles);
+  const auto is_fixed = [](const CornerType& c) { return c.fixed; };
+  if (patch.creases.empty() && std::none_of(patch.signature.begin(), patch.signature.end(), is_fixed)) return t;
+  t.creases = {std::vector<char>(static_cast<std::size_t>(t.edge_count), 0),
+               std::vector<char>(static_cast<std::size_t>(patch.size), 0)};
+  for (std::size_t i = 0; i < 3; ++i) t.creases.corner[i] = patch.signature[i].fixed;
+  for (std::size_t h = 0; h < t.twin.size(); ++h)
+    for (const std::array<Index, 2>& crease : patch.creases)
+      if (std::minmax(crease[0], crease[1]) ==
+          std::minmax(t.origin(static_cast<Index>(h)), t.target(static_cast<Index>(h))))
+        t.creases.edge[static_cast<std::size_t>(t.edge[h])] = true;
+  return t;
+}
+
 void LoopPatches::make_children(Index parent_class) {
   const auto parent = static_cast<std::size_t>(parent_class);
-  const Topology coarse = make_topology(static_cast<std::size_t>(classes_[parent].size), classes_[parent].triangles);
+  const Topology coarse = topology_of(classes_[parent]);
   const Refinement refined = loop_refine(coarse);
-  const Topology fine = make_topology(refined.stencils.rows(), refined.triangles);
+  Topology fine = make_topology(refined.stencils.rows(), refined.triangles);
+  fine.creases = split_creases(coarse, fine);
   for (Index child = 0; child < 4; ++child) {
     std::vector<Index> points;
     const Index child_class = classify(fine, child, points);  // of triangle 0, the patch itself; may add classes

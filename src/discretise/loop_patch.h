@@ -1,11 +1,16 @@
 #pragma once
-// The limit surface of Loop subdivision over one triangle, for corners of any valence, inside or on the boundary.
+// The limit surface of Loop subdivision over one triangle, for corners of any valence, inside, on the boundary or on
+// creases.
 //
 // A triangle's patch depends on the control points of its corners and their neighbours only. Triangles whose corners
 // have the same valences share one PatchClass: the connectivity of those control points, and the matrices that take
 // them to the control points of the four children after one subdivision step. A point is evaluated by descending into
 // children until the patch is a polynomial (a box spline, with reflected points outside a boundary); an extraordinary
 // corner itself is the limit of the descent and only reached by the limit masks.
+//
+// A crease is a boundary for the triangles on each of its sides: of a corner on it only the neighbours between two
+// sharp edges count. Only where a corner of the triangle is the end of a crease, which has no sides, all rings are
+// whole.
 
 #include <Eigen/Core>
 #include <array>
@@ -20,6 +25,8 @@ namespace pelage {
 struct CornerType {
   Index valence = 6;    ///< number of edges at the corner
   Index position = -1;  ///< -1 inside; on the boundary the rank of the triangle in the corner's fan, counter-clockwise
+  bool fixed = false;   ///< a corner of creases, which stays where it is
+  std::vector<Index> creases = {};  ///< in whole rings: the ranks of the neighbours to which creases lead
   auto operator<=>(const CornerType&) const = default;  // NOLINT: taken for a null pointer
 };
 using PatchSignature = std::array<CornerType, 3>;
@@ -60,7 +67,8 @@ class LoopPatches {
     Index size = 0;
     std::vector<Source> sources;  ///< of control points 3, 4, ...
     std::vector<Triangle>
-        triangles;              ///< all triangles that touch a corner, in local numbers; the patch itself is first
+        triangles;  ///< all triangles that touch a corner, in local numbers; the patch itself is first
+    std::vector<std::array<Index, 2>> creases;  ///< sharp edges from a corner, but those of the boundary
     Eigen::MatrixXd expansion;  ///< 12 x size: box spline points; empty when the patch is not a polynomial
     std::array<Index, 4> child{-1, -1, -1, -1};
     std::array<Eigen::MatrixXd, 4> child_points;  ///< size(child) x size
@@ -70,7 +78,9 @@ class LoopPatches {
 
   static void number_points(PatchClass& patch, RingNumbers& id);
   static void list_triangles(PatchClass& patch, const RingNumbers& id);
+  static void list_creases(PatchClass& patch, const RingNumbers& id);
   static void expand_to_box_spline(PatchClass& patch, const RingNumbers& id);
+  static Topology topology_of(const PatchClass& patch);
   static PatchClass make_class(const PatchSignature& signature);
   void make_class_and_children(const PatchSignature& signature);
   void make_children(Index patch_class);

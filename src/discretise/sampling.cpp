@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "linalg/conjugate_gradient.h"
+#include "shape/loop_subdivision.h"
 #include "shape/normals.h"
 #include "shape/vectors.h"
 
@@ -74,6 +75,7 @@ std::vector<Point> limit_positions(const Discretisation& d, const std::vector<Po
 
 std::vector<Point> limit_normals(const Discretisation& d, const std::vector<Point>& control) {
   if (d.tangent1.value.empty()) return vertex_normals(d.topology->triangles, control);
+  if (d.topology->creases.any()) return loop_limit_normals(*d.topology, control);
   std::vector<Point> normal = apply_to_points(d.tangent1, control);
   const std::vector<Point> other = apply_to_points(d.tangent2, control);
   for (std::size_t i = 0; i < normal.size(); ++i) normal[i] = unit(cross(normal[i], other[i]));

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/number.h"
 #include "base/parallel.h"
@@ -52,13 +53,12 @@ void refine_for(Hierarchy& levels, std::vector<Point>& control, double edge, std
 
 }  // namespace
 
-Point smooth_point(const Triangle& t, const std::vector<Point>& points, const std::vector<Point>& normals, double v,
-                   double w) {
+Point smooth_point(const std::array<Point, 3>& corners, const std::array<Point, 3>& normals, double v, double w) {
   std::array<Vector3d, 3> corner;
   std::array<std::array<Vector3d, 2>, 3> toward;
-  for (std::size_t k = 0; k < 3; ++k) corner[k] = vec(points[at(t[k])]);
+  for (std::size_t k = 0; k < 3; ++k) corner[k] = vec(corners[k]);
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vector3d normal = vec(normals[at(t[k])]);
+    const Vector3d normal = vec(normals[k]);
     for (std::size_t side = 0; side < 2; ++side) {
       const Vector3d along = corner[(k + 1 + side) % 3] - corner[k];
       toward[k][side] = along - along.dot(normal) * normal;
@@ -83,12 +83,16 @@ SimulationMesh::SimulationMesh(Hierarchy& levels, std::vector<Point>& control, c
 }
 
 std::vector<Point> SimulationMesh::points(const std::vector<Point>& control) const {
-  const std::vector<Point> limit = loop_limits(*finest_, control), normals = loop_limit_normals(*finest_, control);
+  const std::vector<Point> limit = loop_limits(*finest_, control);
+  const CornerNormals normals(*finest_, control);
   std::vector<Point> result(places_.size());
   parallel_for(places_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Triangle& t = finest_->triangles[at(places_[i].face)];
-      result[i] = smooth_point(t, limit, normals, places_[i].v, places_[i].w);
+      const std::size_t face = at(places_[i].face);
+      const auto [a, b, c] = finest_->triangles[face];
+      result[i] =
+          smooth_point({limit[at(a)], limit[at(b)], limit[at(c)]},
+                       {normals.at(face, 0), normals.at(face, 1), normals.at(face, 2)}, places_[i].v, places_[i].w);
     }
   });
   return result;
@@ -138,11 +142,13 @@ Attribute SimulationMesh::values(const Attribute& given) const {
 namespace {
 
 /// The gradient of one field at every vertex: the mean over the triangles there, by their area.
-std::vector<Point> vertex_gradients(const std::vector<Triangle>& triangles, const std::vector<Point>& points,
+std::vector<Point> vertex_gradients(const CutMesh& mesh, const std::vector<Point>& points,
                                     const std::vector<double>& field) {
-  std::vector<Vector3d> sum(points.size(), Vector3d::Zero());
-  std::vector<double> weight(points.size(), 0.0);
-  for (const Triangle& t : triangles) {
+  std::vector<Vector3d> sum(mesh.vertex.size(), Vector3d::Zero());
+  std::vector<double> weight(mesh.vertex.size(), 0.0);
+  for (const Triangle& cut : mesh.triangles) {
+    Triangle t;
+    for (std::size_t k = 0; k < 3; ++k) t[k] = mesh.vertex[at(cut[k])];
     const Vector3d a = vec(points[at(t[0])]), b = vec(points[at(t[1])]), c = vec(points[at(t[2])]);
     const Vector3d n = (b - a).cross(c - a);
     const double twice = n.norm();
@@ -150,12 +156,12 @@ std::vector<Point> vertex_gradients(const std::vector<Triangle>& triangles, cons
     // Twice the area times the gradient.
     const Vector3d g =
         n.cross(field[at(t[0])] * (c - b) + field[at(t[1])] * (a - c) + field[at(t[2])] * (b - a)) / twice;
-    for (const Index v : t) {
+    for (const Index v : cut) {
       sum[at(v)] += g;
       weight[at(v)] += twice;
     }
   }
-  std::vector<Point> mean(points.size());
+  std::vector<Point> mean(sum.size());
   for (std::size_t v = 0; v < sum.size(); ++v) {
     if (weight[v] > 0) sum[v] /= weight[v];
     mean[v] = {sum[v][0], sum[v][1], sum[v][2]};
@@ -163,23 +169,39 @@ std::vector<Point> vertex_gradients(const std::vector<Triangle>& triangles, cons
   return mean;
 }
 
+std::vector<Index> all_vertices(std::size_t count) {
+  std::vector<Index> vertices(count);
+  std::iota(vertices.begin(), vertices.end(), 0);
+  return vertices;
+}
+
 }  // namespace
+
+MeshFields::MeshFields(CutMesh cut, const std::vector<Point>& points, const std::vector<std::vector<double>>& fields)
+    : mesh_(std::move(cut)), points_(points), fields_(fields) {
+  for (const std::vector<double>& field : fields) gradients_.push_back(vertex_gradients(mesh_, points, field));
+}
 
 MeshFields::MeshFields(const std::vector<Triangle>& triangles, const std::vector<Point>& points,
                        const std::vector<std::vector<double>>& fields)
-    : triangles_(triangles), points_(points), fields_(fields) {
-  for (const std::vector<double>& field : fields) gradients_.push_back(vertex_gradients(triangles, points, field));
-}
+    : MeshFields(CutMesh{triangles, all_vertices(points.size())}, points, fields) {}
+
+MeshFields::MeshFields(const Topology& mesh, const std::vector<Point>& points,
+                       const std::vector<std::vector<double>>& fields)
+    : MeshFields(cut_at_creases(mesh), points, fields) {}
 
 double MeshFields::at(std::size_t field, const MeshPlace& place) const {
-  const Triangle& t = triangles_[pelage::at(place.face)];
-  const auto of = [&](const auto& values, std::size_t k) -> const auto& { return values[pelage::at(t[k % 3])]; };
+  const Triangle& cut = mesh_.triangles[pelage::at(place.face)];
+  const auto of = [&](const auto& values, std::size_t k) -> const auto& {
+    return values[pelage::at(mesh_.vertex[pelage::at(cut[k % 3])])];
+  };
   std::array<double, 3> corner;
   std::array<std::array<double, 2>, 3> toward;
   for (std::size_t k = 0; k < 3; ++k) {
     corner[k] = of(fields_[field], k);
     for (std::size_t side = 0; side < 2; ++side)
-      toward[k][side] = vec(of(gradients_[field], k)).dot(vec(of(points_, k + 1 + side)) - vec(of(points_, k)));
+      toward[k][side] =
+          vec(gradients_[field][pelage::at(cut[k])]).dot(vec(of(points_, k + 1 + side)) - vec(of(points_, k)));
   }
   return cubic_triangle(corner, toward, place.v, place.w);
 }
@@ -187,7 +209,7 @@ double MeshFields::at(std::size_t field, const MeshPlace& place) const {
 std::vector<std::vector<double>> fields_at(const std::vector<MeshPlace>& places, const Topology& mesh,
                                            const std::vector<Point>& points,
                                            const std::vector<std::vector<double>>& fields) {
-  const MeshFields anywhere(mesh.triangles, points, fields);
+  const MeshFields anywhere(mesh, points, fields);
   std::vector<std::vector<double>> result(fields.size(), std::vector<double>(places.size()));
   for (std::size_t f = 0; f < fields.size(); ++f)
     parallel_for(places.size(), [&](std::size_t begin, std::size_t end) {

@@ -5,14 +5,14 @@
 #include <memory>
 #include <vector>
 
+#include "shape/creases.h"
 #include "shape/hierarchy.h"
 #include "shape/isotropic_mesh.h"
 
 namespace pelage {
 
 /// At (1-v-w) a + v b + w c of a triangle whose surface has these unit normals at its corners (cubic_triangle.h).
-Point smooth_point(const Triangle& triangle, const std::vector<Point>& points, const std::vector<Point>& normals,
-                   double v, double w);
+Point smooth_point(const std::array<Point, 3>& corners, const std::array<Point, 3>& normals, double v, double w);
 
 class SimulationMesh {
  public:
@@ -45,17 +45,21 @@ class SimulationMesh {
 /// the mean gradient of the triangles there.
 class MeshFields {
  public:
-  /// Keeps references to all of them.
+  /// Keeps references to points and fields.
   MeshFields(const std::vector<Triangle>& triangles, const std::vector<Point>& points,
              const std::vector<std::vector<double>>& fields);
+  /// On creases with the gradients of each side.
+  MeshFields(const Topology& mesh, const std::vector<Point>& points, const std::vector<std::vector<double>>& fields);
   /// On a face. Thread-safe.
   double at(std::size_t field, const MeshPlace& place) const;
 
  private:
-  const std::vector<Triangle>& triangles_;
+  MeshFields(CutMesh cut, const std::vector<Point>& points, const std::vector<std::vector<double>>& fields);
+
+  CutMesh mesh_;
   const std::vector<Point>& points_;
   const std::vector<std::vector<double>>& fields_;
-  std::vector<std::vector<Point>> gradients_;
+  std::vector<std::vector<Point>> gradients_;  ///< at the vertices of the cut mesh
 };
 
 /// The same at many places; 0 at those that are on no face.

@@ -35,7 +35,9 @@ CoatSampler::CoatSampler(const CoatFields& fields, const Tessellation& tessellat
   if (fields.mesh) {
     const Topology& mesh = *fields.mesh->shared_topology();
     walk_ = std::make_unique<const SurfaceWalk>(mesh, fields.space->control());
-    anywhere_ = std::make_unique<const MeshFields>(mesh.triangles, fields.space->control(), fields.coefficients);
+    anywhere_ = std::make_unique<const MeshFields>(mesh, fields.space->control(), fields.coefficients);
+  } else if (smooth_ && t_.creased) {
+    anywhere_ = std::make_unique<const MeshFields>(*t_.creased, t_.samples.position, t_.samples.fields);
   } else if (smooth_) {
     anywhere_ = std::make_unique<const MeshFields>(t_.triangles, t_.samples.position, t_.samples.fields);
   }
@@ -87,11 +89,20 @@ Point CoatSampler::moved_beyond(Point p, const Spot& s) const {
 }
 
 Point CoatSampler::position(const Spot& s) const {
-  const Triangle& t = t_.triangles[s.face];
+  const auto [a, b, c] = t_.triangles[s.face];
   const std::vector<Point>& points = t_.samples.position;
   const MeshPlace place{static_cast<Index>(s.face), s.v, s.w};
-  Point p = smooth_ ? smooth_point(t, points, t_.samples.normal, s.v, s.w) : point_at(t_.triangles, points, place);
+  Point p = smooth_ ? smooth_point({points[at(a)], points[at(b)], points[at(c)]},
+                                   {t_.normal(s.face, 0), t_.normal(s.face, 1), t_.normal(s.face, 2)}, s.v, s.w)
+                    : point_at(t_.triangles, points, place);
   return walk_ ? moved_beyond(p, s) : p;
+}
+
+Point CoatSampler::normal(const Spot& s) const {
+  const Point &a = t_.normal(s.face, 0), &b = t_.normal(s.face, 1), &c = t_.normal(s.face, 2);
+  Point n;
+  for (std::size_t k = 0; k < 3; ++k) n[k] = (1 - s.v - s.w) * a[k] + s.v * b[k] + s.w * c[k];
+  return unit(n);
 }
 
 /// Of the mesh of the fields.
@@ -122,7 +133,7 @@ CoatSamples CoatSampler::samples(std::span<const MeshPlace> places) const {
     const Spot spot = spot_of(places[i], i > 0 ? linear[i - 1].face : -1);
     const MeshPlace& fine = linear.emplace_back(MeshPlace{static_cast<Index>(spot.face), spot.v, spot.w});
     s.position.push_back(position(spot));
-    s.normal.push_back(unit(point_at(t_.triangles, from.normal, fine)));
+    s.normal.push_back(normal(spot));
     if (!from.drawn_at.empty()) s.drawn_at.push_back(point_at(t_.triangles, from.drawn_at, fine));
     // Neighbours in a row of texels are neighbours on the surface.
     const bool goes_on = i > 0 && linear[i - 1].face == fine.face;

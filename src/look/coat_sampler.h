@@ -42,6 +42,7 @@ class CoatSampler {
   /// `near`: a triangle of the tessellation that is likely near, or -1.
   Spot spot_of(MeshPlace place, Index near = -1) const;
   Point position(const Spot& spot) const;
+  Point normal(const Spot& spot) const;
   /// As the plane of its triangle goes on.
   Point moved_beyond(Point p, const Spot& spot) const;
   MeshPlace field_place(const Spot& spot, const Point& position, Index near) const;

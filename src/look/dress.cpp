@@ -76,8 +76,9 @@ TriangleMesh dress(Tessellation t, const Palette& palette) {
         {std::string(kind_of(channel).attribute), 1, Domain::vertex, channel_values(t.samples, paint, channel)});
   rename_input(t.attributes, paint);
   TriangleMesh mesh{std::move(t.samples.position), std::move(t.triangles), {}, std::move(t.links), t.metres_per_unit};
-  mesh.set(t.sharp ? corner_normals(mesh.triangles, mesh.points)
-                   : Attribute{"normal", 3, Domain::vertex, flattened(t.samples.normal)});
+  mesh.set(t.sharp                   ? corner_normals(mesh.triangles, mesh.points)
+           : t.corner_normal.empty() ? Attribute{"normal", 3, Domain::vertex, flattened(t.samples.normal)}
+                                     : Attribute{"normal", 3, Domain::corner, flattened(t.corner_normal)});
   mesh.set({"color", 3, Domain::vertex, std::move(color)});
   for (std::size_t i = 0; paint.fields && i < t.samples.fields.size(); ++i)
     mesh.set({attribute_name(paint.species[i]), 1, Domain::vertex, std::move(t.samples.fields[i])});

@@ -163,12 +163,20 @@ class Tessellator {
       const std::vector<Point> control = refined(fields_.control);
       s.position = loop_limits(finest(), control);
       s.normal = loop_limit_normals(finest(), control);
+      if (finest().creases.any()) add_creases(t, control);
       if (moved) s.drawn_at = loop_limits(finest(), refined(fields_.initial_control));
     } else {
       s.position = flat(fields_.points);
       s.normal = vertex_normals(t.triangles, s.position);
       if (moved) s.drawn_at = flat(fields_.shape->points);
     }
+  }
+
+  void add_creases(Tessellation& t, const std::vector<Point>& control) const {
+    const CornerNormals normals(finest(), control);
+    for (std::size_t f = 0; f < t.triangles.size(); ++f)
+      for (std::size_t k = 0; k < 3; ++k) t.corner_normal.push_back(normals.at(f, k));
+    t.creased = levels_.shared_topology(levels_.finest());
   }
 
   /// Those of the surface at the nodes of the run, linear between them.

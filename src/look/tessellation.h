@@ -9,12 +9,19 @@ namespace pelage {
 
 struct Tessellation {
   std::vector<Triangle> triangles;
-  CoatSamples samples;                         ///< at the vertices
-  std::vector<Attribute> attributes;           ///< of the shape but for its normals
-  std::vector<FileLink> links;                 ///< of the shape
-  std::optional<double> metres_per_unit = {};  ///< of the shape
-  bool sharp = false;                          ///< whether it is to have edges where triangles meet at large angles
+  CoatSamples samples;                           ///< at the vertices
+  std::vector<Attribute> attributes;             ///< of the shape but for its normals
+  std::vector<FileLink> links;                   ///< of the shape
+  std::optional<double> metres_per_unit = {};    ///< of the shape
+  bool sharp = false;                            ///< whether it is to have edges where triangles meet at large angles
+  std::vector<Point> corner_normal = {};         ///< of surfaces with creases: at the corners of the triangles
+  std::shared_ptr<const Topology> creased = {};  ///< and their connectivity
   std::vector<MeshPlace> on_mesh = {};  ///< of the samples on the mesh of the fields, if they have one of their own
+
+  const Point& normal(std::size_t face, std::size_t corner) const {
+    return corner_normal.empty() ? samples.normal[static_cast<std::size_t>(triangles[face][corner])]
+                                 : corner_normal[3 * face + corner];
+  }
 };
 
 /// Which tessellation a look asks for.

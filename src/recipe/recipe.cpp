@@ -161,6 +161,7 @@ Stage read_stage(const Value& table, std::size_t count) {
   s.stationary = table.optional_number("stationary");
   if (const Value* v = table.find("seed")) s.seed = static_cast<std::uint64_t>(whole_number(*v, 0));
   if (const Value* v = table.find("interpolate")) s.interpolate = v->boolean();
+  if (const Value* v = table.find("crease")) s.crease = Given<double>{v->number(), v->where()};
   return s;
 }
 

@@ -105,6 +105,10 @@ void add_shape_traits(Traits& t, const Program& program) {
   t.push_back({"images", hashed([&](Fingerprint& f) {
                  for (const Texture& texture : program.textures) add_texture(f, texture);
                })});
+  if (program.creases.any())
+    t.push_back({"creases", hashed([&](Fingerprint& f) {
+                   for (const char sharp : program.creases.edge) f.add(std::uint64_t{sharp != 0});
+                 })});
 }
 
 void add_stage_traits(Traits& t, const StageProgram& s, const std::string& of) {

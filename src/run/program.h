@@ -13,6 +13,7 @@
 #include "react/model.h"
 #include "run/borders.h"
 #include "shape/texture.h"
+#include "shape/topology.h"
 #include "time/stepper.h"
 
 namespace pelage {
@@ -63,6 +64,7 @@ struct Program {
   std::vector<Texture> textures;              ///< laid on the shape by its "uv"
   const Method* method = &loop_method;
   bool interpolate = false;   ///< the surface goes through the vertices of the shape
+  Creases creases;            ///< of the shape, with its edges as make_topology numbers them
   double edge = 0;            ///< longest edge at the start [world units]
   std::vector<double> edges;  ///< the same at every vertex of the shape, where sizes differ; empty: `edge` everywhere
   double step_error = 1;      ///< factor on the local error that adaptive steppers keep

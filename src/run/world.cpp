@@ -38,8 +38,9 @@ World::World(std::shared_ptr<const Program> program, const Progress& progress) :
           std::make_shared<const HarmonicVolume>(volume_of(*program_), surface_of(*program_), space_->stiffness());
     return;
   }
-  auto hierarchy =
-      std::make_shared<Hierarchy>(make_topology(shape.points.size(), shape.triangles), program_->method->refine);
+  Topology base = make_topology(shape.points.size(), shape.triangles);
+  base.creases = program_->creases;
+  auto hierarchy = std::make_shared<Hierarchy>(std::move(base), program_->method->refine);
   hierarchy_ = hierarchy;
   std::vector<Point> control = coarse_control(shape.points);
   const Method& method = *program_->method;

@@ -1,6 +1,7 @@
 #include "shape/editable_mesh.h"
 
 #include <algorithm>
+#include <array>
 
 #include "base/parallel.h"
 
@@ -30,10 +31,22 @@ void EditableMesh::join(Index a, Index b) {
   if (b >= 0) at(b).twin = a;
 }
 
+void EditableMesh::set_line(Index h, Index line) {
+  lines_.resize(halves_.size(), 0);
+  lines_[static_cast<std::size_t>(h)] = line;
+  if (twin(h) >= 0) lines_[static_cast<std::size_t>(twin(h))] = -line;
+}
+
+/// Where a half-edge becomes another.
+void EditableMesh::take_line(Index to, Index from) {
+  if (!lines_.empty()) lines_[static_cast<std::size_t>(to)] = line(from);
+}
+
 /// Returns the first half-edge of the new triangle.
 Index EditableMesh::add_face(Index a, Index b, Index c) {
   const Index first = halfedge_count();
   halves_.insert(halves_.end(), {{a, -1}, {b, -1}, {c, -1}});
+  if (!lines_.empty()) lines_.resize(halves_.size(), 0);
   ++live_faces_;
   return first;
 }
@@ -44,6 +57,9 @@ Index EditableMesh::split_side(Index h, Index middle) {
   const Index fresh = add_face(middle, b, c);
   if (outgoing(b) == n) outgoing_of(b) = fresh + 1;
   at(n).origin = middle;
+  take_line(fresh, h);
+  take_line(fresh + 1, n);
+  if (!lines_.empty()) lines_[static_cast<std::size_t>(n)] = 0;
   join(fresh + 1, beyond);
   join(fresh + 2, n);
   ++valence_of(c);
@@ -80,6 +96,9 @@ void EditableMesh::flip(Index h) {
   if (outgoing(b) == g || outgoing(b) == n) outgoing_of(b) = gp;
   if (outgoing(c) == p) outgoing_of(c) = n;
   if (outgoing(d) == gp) outgoing_of(d) = gn;
+  const std::array<Index, 4> lines = {line(p), line(gn), line(gp), line(n)};  // of ca, ad, db, bc
+  for (std::size_t k = 0; !lines_.empty() && k < 4; ++k)
+    lines_[static_cast<std::size_t>(std::array{n, p, gn, gp}[k])] = lines[k];
   at(h).origin = d, at(n).origin = c, at(p).origin = a;
   at(g).origin = c, at(gn).origin = d, at(gp).origin = b;
   at(n).twin = at(p).twin = at(gn).twin = at(gp).twin = -1;
@@ -110,6 +129,8 @@ bool EditableMesh::may_collapse(Index h) const {
 Index EditableMesh::remove_face(Index h) {
   const Index n = next_halfedge(h), p = previous_halfedge(h), c = origin(p);
   const Index from_c = twin(n), to_c = twin(p);
+  if (line(n) != 0 && to_c >= 0) take_line(to_c, n);      // n and to_c both end at c
+  if (line(p) != 0 && from_c >= 0) take_line(from_c, p);  // p and from_c both begin there
   --valence_of(c);
   if (outgoing(c) == p) outgoing_of(c) = from_c;
   if (from_c >= 0) at(from_c).twin = to_c;
@@ -221,6 +242,11 @@ std::vector<Index> EditableMesh::pack() {
       valence[i] = this->valence(vertices[i]);
     }
   });
+  if (!lines_.empty()) {
+    std::vector<Index> lines(halves.size());
+    for (std::size_t i = 0; i < lines.size(); ++i) lines[i] = line(3 * faces[i / 3] + static_cast<Index>(i % 3));
+    lines_ = std::move(lines);
+  }
   halves_ = std::move(halves);
   outgoing_ = std::move(outgoing);
   valence_ = std::move(valence);
@@ -239,6 +265,12 @@ Topology EditableMesh::topology() const {
     }
   });
   number_from_twins(result);
+  if (!lines_.empty()) {
+    result.creases = {std::vector<char>(static_cast<std::size_t>(result.edge_count), 0),
+                      std::vector<char>(static_cast<std::size_t>(result.vertex_count), 0)};
+    for (std::size_t h = 0; h < lines_.size(); ++h)
+      if (lines_[h] != 0) result.creases.edge[static_cast<std::size_t>(result.edge[h])] = true;
+  }
   return result;
 }
 

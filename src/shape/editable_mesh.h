@@ -24,6 +24,11 @@ class EditableMesh {
   Index origin(Index h) const { return at(h).origin; }
   Index target(Index h) const { return origin(next_halfedge(h)); }
   Index twin(Index h) const { return at(h).twin; }  ///< -1 on the boundary
+  /// Of a half-edge on a crease: the number of the line, from 1 on, negative against its direction; else 0. Cuts and
+  /// collapses take it along; edges of lines are not turned.
+  Index line(Index h) const { return lines_.empty() ? 0 : lines_[static_cast<std::size_t>(h)]; }
+  /// Marks a half-edge and its twin.
+  void set_line(Index h, Index line);
   /// As in Topology: on the boundary the first one counter-clockwise; -1 for dead vertices.
   Index outgoing(Index v) const { return outgoing_[static_cast<std::size_t>(v)]; }
   Index valence(Index v) const { return valence_[static_cast<std::size_t>(v)]; }  ///< number of edges
@@ -79,7 +84,10 @@ class EditableMesh {
   std::vector<Index> breadth_first() const;
   std::vector<Index> faces_by_vertex(const std::vector<Index>& order, const std::vector<Index>& number) const;
 
+  void take_line(Index to, Index from);
+
   std::vector<Half> halves_;
+  std::vector<Index> lines_;  ///< per half-edge; empty without lines
   std::vector<Index> outgoing_, valence_;
   Index live_vertices_ = 0, live_faces_ = 0;
 };

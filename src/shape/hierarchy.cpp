@@ -3,6 +3,7 @@
 #include <string>
 
 #include "pelage/error.h"
+#include "shape/creases.h"
 #include "shape/refine.h"
 
 namespace pelage {
@@ -12,8 +13,10 @@ Hierarchy::Hierarchy(Topology base, Rule rule)
 
 void Hierarchy::refine() {
   Refinement fine = rule_(topology(finest()));
-  auto topology = std::make_shared<const Topology>(make_topology(fine.stencils.rows(), std::move(fine.triangles)));
-  levels_.push_back({std::move(topology), std::make_shared<const Stencils>(std::move(fine.stencils))});
+  Topology split = make_topology(fine.stencils.rows(), std::move(fine.triangles));
+  split.creases = split_creases(topology(finest()), split);
+  levels_.push_back(
+      {std::make_shared<const Topology>(std::move(split)), std::make_shared<const Stencils>(std::move(fine.stencils))});
 }
 
 std::vector<double> Hierarchy::interpolated(std::vector<double> values, std::size_t components, int from,

@@ -11,6 +11,8 @@
 
 #include "base/parallel.h"
 #include "pelage/error.h"
+#include "shape/crease_lines.h"
+#include "shape/creases.h"
 #include "shape/editable_mesh.h"
 #include "shape/locate.h"
 #include "shape/own_order.h"
@@ -125,17 +127,23 @@ bool flat(const Vec& cross, const Vec& a, const Vec& b) {
 }
 
 /// How freely a vertex moves; of two that merge the less free one stays.
-enum class Hold : char { free, crease, border, corner };
+/// Lines and points (their ends and corners) are those of the base's creases, creases what the mesh itself bends to.
+enum class Hold : char { free, crease, line, border, point, corner };
+
+/// On a crease of the base.
+bool marked(Hold hold) { return hold == Hold::line || hold == Hold::point; }
 
 signed char aim(Hold hold) { return hold == Hold::corner ? 3 : hold == Hold::border ? 4 : 6; }
 
 struct alignas(64) Spot {  // one line of the cache
   Vec point;
   MeshPlace place;
-  Index border = -1;  ///< on the boundary: the half-edge of the base on which it lies
+  Index border = -1;  ///< on boundaries and lines: the half-edge of the base on which it lies
   Hold hold = Hold::free;
   double size = 0;  ///< wanted edge
 };
+
+bool crease_corner(const Topology& t, std::size_t vertex) { return t.creases.any() && t.creases.corner[vertex]; }
 
 /// Equilateral triangles of edge h have the area sqrt(3) / 4 h^2.
 double wanted_faces(const Topology& base, const std::vector<Point>& points, const std::vector<double>& sizes) {
@@ -181,6 +189,17 @@ class IsotropicMesher {
   bool on_rim(const MeshPlace& place) const;
   Spot on_surface(const Vec& p, Index from_face) const;
   Spot on_border(const BorderLines::Place& line) const;
+  Spot on_crease(const CreaseLines::Place& line) const;
+  static CreaseLines::Place on_crease_line(const Spot& spot) {
+    return {spot.border, fraction_on(spot.border, spot.place)};
+  }
+  Spot middle_of_line(Index h) const;
+  void mark_lines(const Topology& start, const std::vector<Index>& vertex);
+  Index line_between(Index a, Index b, std::size_t vertices) const;
+  Spot start_on_crease(Index vertex, Spot spot) const;
+  bool crosses(Index face, Index v) const;
+  bool leaves_region(Index h, const Spot& fresh) const;
+  bool keeps_lines(Index h) const;
   static BorderLines::Place on_line(const Spot& spot) { return {spot.border, fraction_on(spot.border, spot.place)}; }
 
   void collapse_below(double factor, double longest);
@@ -207,6 +226,7 @@ class IsotropicMesher {
   void relax(int times);
   bool turns_over(const Vec& from, const Vec& to, const Index* begin, const Index* end) const;
   Spot relaxed(Index v, const Index* begin, const Index* end) const;
+  Spot relaxed_on_line(Index v, const Index* begin, const Index* end) const;
 
   void pack();
   Vec face_normal(Index a, Index b, Index c) const {
@@ -219,6 +239,8 @@ class IsotropicMesher {
   const std::vector<Point>& points_;
   SurfaceWalk surface_;
   BorderLines border_;
+  CreaseLines lines_;
+  std::vector<Index> region_;  ///< per triangle of the base; empty without creases
   std::vector<double> sizes_;  ///< per base vertex
   bool even_;                  ///< are all sizes the same?
   EditableMesh mesh_;
@@ -234,6 +256,8 @@ IsotropicMesher::IsotropicMesher(const Topology& base, const std::vector<Point>&
       points_(points),
       surface_(base, points),
       border_(base, points),
+      lines_(base, points),
+      region_(base.creases.any() ? smooth_regions(base) : std::vector<Index>{}),
       sizes_(std::move(sizes)),
       even_(std::adjacent_find(sizes_.begin(), sizes_.end(), std::not_equal_to<>()) == sizes_.end()),
       mesh_(start.topology),
@@ -246,14 +270,73 @@ IsotropicMesher::IsotropicMesher(const Topology& base, const std::vector<Point>&
     if (h < 0) continue;
     const bool border = base.twin[at(h)] < 0;
     spots_[v] = {Vec(points[source].data()), place_on(h, 0), border ? h : -1, Hold::free, sizes_[source]};
-    if (border) spots_[v].hold = border_.corner(h) ? Hold::corner : Hold::border;
+    if (border) spots_[v].hold = border_.corner(h) || crease_corner(base, source) ? Hold::corner : Hold::border;
+    if (!border && base.creases.any()) spots_[v] = start_on_crease(start.vertex[v], spots_[v]);
     aims_[v] = aim(spots_[v].hold);
+  }
+  if (!lines_.empty()) mark_lines(start.topology, start.vertex);
+}
+
+/// A vertex of the base inside, as it is held on creases.
+Spot IsotropicMesher::start_on_crease(Index vertex, Spot spot) const {
+  VertexRing around;
+  vertex_ring(base_, vertex, around);
+  if (around.sharp.empty()) return spot;
+  if (around.corner || around.sharp.size() != 2) {
+    spot.hold = Hold::point;
+    return spot;
+  }
+  Index h = base_.outgoing[at(vertex)];
+  while (lines_.line(h) <= 0) h = base_.rotate(h);
+  spot.hold = Hold::line;
+  spot.border = h;
+  spot.place = place_on(h, 0);
+  return spot;
+}
+
+/// The line from one vertex of the base to another that is the first after it among the first `vertices`, with the
+/// sign of the direction.
+Index IsotropicMesher::line_between(Index a, Index b, std::size_t vertices) const {
+  const Index start = base_.outgoing[at(a)];
+  Index h = start;
+  do {
+    if (lines_.line(h) != 0) {
+      Index last = h;
+      while (at(base_.target(last)) >= vertices) last = lines_.next(last);
+      if (base_.target(last) == b) return lines_.line(h);
+    }
+    h = base_.rotate(h);
+  } while (h >= 0 && h != start);
+  return 0;
+}
+
+/// Of a mesh whose vertices are these of the base: edges of creases belong to its lines.
+void IsotropicMesher::mark_lines(const Topology& start, const std::vector<Index>& vertex) {
+  for (std::size_t h = 0; h < start.twin.size(); ++h) {
+    const auto halfedge = static_cast<Index>(h);
+    if (start.twin[h] < halfedge || !start.sharp(halfedge)) continue;
+    mesh_.set_line(halfedge,
+                   line_between(vertex[at(start.origin(halfedge))], vertex[at(start.target(halfedge))], vertex.size()));
   }
 }
 
-/// Is a place on the boundary of the base?
+/// Would a vertex of the mesh, moved to this triangle of the base, be beyond a crease?
+bool IsotropicMesher::crosses(Index face, Index v) const {
+  return !region_.empty() && spot(v).hold <= Hold::crease && region_[at(face)] != region_[at(spot(v).place.face)];
+}
+
+/// Is what takes the place of an edge's middle beyond a crease of its surroundings?
+bool IsotropicMesher::leaves_region(Index h, const Spot& fresh) const {
+  if (region_.empty() || fresh.hold > Hold::crease) return false;
+  const Index g = mesh_.twin(h), face = fresh.place.face;
+  return crosses(face, mesh_.origin(h)) || crosses(face, mesh_.target(h)) ||
+         crosses(face, mesh_.origin(previous_halfedge(h))) ||
+         (g >= 0 && crosses(face, mesh_.origin(previous_halfedge(g))));
+}
+
+/// Is a place on the boundary of the base or on a crease?
 bool IsotropicMesher::on_rim(const MeshPlace& place) const {
-  const auto open = [&](Index side) { return base_.twin[at(3 * place.face + side)] < 0; };
+  const auto open = [&](Index side) { return base_.sharp(3 * place.face + side); };
   return (place.w == 0 && open(0)) || (place.v == 0 && open(2)) || (place.v + place.w >= 1 && open(1));
 }
 
@@ -271,11 +354,29 @@ Spot IsotropicMesher::on_border(const BorderLines::Place& line) const {
   return result;
 }
 
+Spot IsotropicMesher::on_crease(const CreaseLines::Place& line) const {
+  Spot result;
+  result.place = place_on(line.halfedge, line.along);
+  result.point = surface_.point(result.place);
+  result.border = line.halfedge;
+  result.hold = Hold::line;
+  result.size = even_ ? sizes_[0] : value_at(base_.triangles, sizes_, result.place);
+  return result;
+}
+
+Spot IsotropicMesher::middle_of_line(Index h) const {
+  Index a = mesh_.origin(h), b = mesh_.target(h), line = mesh_.line(h);
+  if (line < 0) std::swap(a, b), line = -line;
+  return on_crease(lines_.middle(spot(a).hold == Hold::line ? on_crease_line(spot(a)) : lines_.begin(line),
+                                 spot(b).hold == Hold::line ? on_crease_line(spot(b)) : lines_.end(line)));
+}
+
 Spot IsotropicMesher::middle(Index h) const {
+  if (mesh_.line(h) != 0) return middle_of_line(h);
   const Spot &a = spot(mesh_.origin(h)), &b = spot(mesh_.target(h));
   if (mesh_.twin(h) < 0) return on_border(border_.middle(on_line(a), on_line(b)));
   Spot result = on_surface((a.point + b.point) / 2, a.place.face);
-  if (a.hold != Hold::free && b.hold != Hold::free) result.hold = Hold::crease;
+  if (a.hold != Hold::free && b.hold != Hold::free && !marked(a.hold) && !marked(b.hold)) result.hold = Hold::crease;
   return result;
 }
 
@@ -283,7 +384,8 @@ void IsotropicMesher::cut(Index h) {
   const Spot fresh = middle(h);
   // An edge through the inside of a thin part can have its middle nearest to one of its ends.
   const Vec &a = spot(mesh_.origin(h)).point, &b = spot(mesh_.target(h)).point;
-  if (mesh_.twin(h) >= 0 && on_rim(fresh.place)) return;
+  if (mesh_.twin(h) >= 0 && fresh.hold <= Hold::crease && on_rim(fresh.place)) return;
+  if (leaves_region(h, fresh)) return;
   if (std::max((fresh.point - a).squaredNorm(), (fresh.point - b).squaredNorm()) > 0.8 * (a - b).squaredNorm()) return;
   mesh_.split(h);
   spots_.push_back(fresh);
@@ -374,7 +476,21 @@ bool IsotropicMesher::keeps_form(Index moved, Index other, const Vec& target) co
   return good;
 }
 
+/// Do lines keep their course, and apart from each other, when an edge shrinks?
+bool IsotropicMesher::keeps_lines(Index h) const {
+  const Hold a = spot(mesh_.origin(h)).hold, b = spot(mesh_.target(h)).hold;
+  if (mesh_.line(h) == 0 && (marked(a) || marked(b)) && std::min(a, b) >= Hold::line) return false;
+  if (mesh_.line(h) != 0 && std::min(a, b) > Hold::line) return false;
+  const auto merges_lines = [&](Index side) {
+    const Index n = next_halfedge(side), p = previous_halfedge(side);
+    const auto sharp = [&](Index e) { return mesh_.line(e) != 0 || mesh_.twin(e) < 0; };
+    return sharp(n) && sharp(p) && (mesh_.line(n) != 0 || mesh_.line(p) != 0);
+  };
+  return !merges_lines(h) && (mesh_.twin(h) < 0 || !merges_lines(mesh_.twin(h)));
+}
+
 bool IsotropicMesher::should_collapse(Index h, double longest) const {
+  if (!lines_.empty() && !keeps_lines(h)) return false;
   const Index a = mesh_.origin(h), b = mesh_.target(h), g = mesh_.twin(h);
   const Index c = mesh_.origin(previous_halfedge(h)), d = g < 0 ? c : mesh_.origin(previous_halfedge(g));
   if (!may_lose_edge(c) || !may_lose_edge(d)) return false;
@@ -394,7 +510,7 @@ void IsotropicMesher::collapse_below(double factor, double longest) {
     if (!should_collapse(h, longer(h, 0.6) ? 4.0 / 3.0 : longest)) continue;
     const Index a = mesh_.origin(h);
     const Spot target = merged(h);
-    if (target.hold < Hold::border && on_rim(target.place)) continue;
+    if (target.hold <= Hold::crease && (on_rim(target.place) || leaves_region(h, target))) continue;
     if ((target.point - meeting(h)).squaredNorm() > 0.1 * edge_square(h)) continue;  // other than what was tried
     spot(a) = target;
     stirred_[at(a)] = true;
@@ -446,8 +562,8 @@ bool IsotropicMesher::flip_keeps_form(Index h) const {
 /// Turns edges where that brings the valences nearer to 6 (4 on the boundary).
 void IsotropicMesher::flip_all() {
   const auto good = [&](Index h) {
-    return mesh_.twin(h) >= 0 && flip_helps(h) && may_lose_edge(mesh_.origin(h)) && may_lose_edge(mesh_.target(h)) &&
-           mesh_.may_flip(h) && flip_keeps_form(h);
+    return mesh_.twin(h) >= 0 && mesh_.line(h) == 0 && flip_helps(h) && may_lose_edge(mesh_.origin(h)) &&
+           may_lose_edge(mesh_.target(h)) && mesh_.may_flip(h) && flip_keeps_form(h);
   };
   for (Index h : edges_where(good)) {
     if (!good(h)) continue;
@@ -468,10 +584,27 @@ bool IsotropicMesher::turns_over(const Vec& from, const Vec& to, const Index* be
   return false;
 }
 
+/// A vertex on a line in the middle of its two neighbours there.
+Spot IsotropicMesher::relaxed_on_line(Index v, const Index* begin, const Index* end) const {
+  const Spot& here = spot(v);
+  double ahead = 0, behind = 0;
+  const Index start = mesh_.outgoing(v);
+  Index h = start;
+  do {
+    const double length = mesh_.line(h) == 0 ? 0 : (spot(mesh_.target(h)).point - here.point).norm();
+    (mesh_.line(h) > 0 ? ahead : behind) += length;
+    h = mesh_.twin(previous_halfedge(h));
+  } while (h != start);
+  // A third: neighbours may do the same.
+  const Spot result = on_crease(lines_.advance(on_crease_line(here), (ahead - behind) / 3));
+  return turns_over(here.point, result.point, begin, end) ? here : result;
+}
+
 /// A vertex in the middle of its triangles' areas; on creases and boundaries in the middle of its two neighbours.
 Spot IsotropicMesher::relaxed(Index v, const Index* begin, const Index* end) const {
   const Spot& here = spot(v);
-  if (here.hold == Hold::corner) return here;
+  if (here.hold == Hold::corner || here.hold == Hold::point) return here;
+  if (here.hold == Hold::line) return relaxed_on_line(v, begin, end);
   if (here.hold == Hold::border) {
     const double ahead = (spot(*begin).point - here.point).norm(),
                  behind = (spot(*(end - 1)).point - here.point).norm();
@@ -504,7 +637,7 @@ Spot IsotropicMesher::relaxed(Index v, const Index* begin, const Index* end) con
     const Spot result = on_surface(target, here.place.face);
     // Beside its aim, or on an edge that may be one of the boundary, it can come upon its neighbours.
     const bool near = (result.point - target).squaredNorm() < 0.01 * here.size * here.size;
-    if (on_rim(result.place)) return here;
+    if (on_rim(result.place) || crosses(result.place.face, v)) return here;
     const bool inside = result.place.v > 0 && result.place.w > 0 && result.place.v + result.place.w < 1;
     return (near && inside) || !turns_over(here.point, result.point, begin, end) ? result : here;
   }
@@ -521,7 +654,7 @@ Spot IsotropicMesher::relaxed(Index v, const Index* begin, const Index* end) con
     ++sharp;
   }
   Spot result = sharp == 2 ? on_surface(along, here.place.face) : here;
-  if (turns_over(here.point, result.point, begin, end)) result = here;
+  if (crosses(result.place.face, v) || turns_over(here.point, result.point, begin, end)) result = here;
   result.hold = Hold::crease;
   return result;
 }
@@ -594,6 +727,8 @@ IsotropicMesh IsotropicMesher::run(double wanted) {
   relax(2);
   pack();
   IsotropicMesh result{mesh_.topology(), {}, {}};
+  for (std::size_t v = 0; result.topology.creases.any() && v < spots_.size(); ++v)
+    result.topology.creases.corner[v] = spots_[v].hold >= Hold::point;
   result.places.reserve(spots_.size());
   for (const Spot& s : spots_) result.places.push_back(s.place);
   return result;

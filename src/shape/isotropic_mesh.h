@@ -21,9 +21,10 @@ struct IsotropicMesh {
 /// The base must be an oriented manifold; it may have boundaries and several components and be uneven. Components,
 /// holes and handles all stay, also those smaller than an edge. Boundary vertices stay on the boundary, and where it
 /// turns by more than 40 degrees one stays in place. Edges where the new mesh bends by more than 60 degrees are kept
-/// roughly; finer creases are not. The result does not depend on the number of threads, nor, but for rounding, on the
-/// order of the base's vertices and triangles, on where it lies and how large it is.
-/// Throws Error(Fault::usage) unless all edges are positive, or for more than 100 million triangles.
+/// roughly; finer ones are not. The creases of the base are kept: vertices on them move along them, their corners and
+/// ends stay, and the topology of the mesh has them, too. The result does not depend on the number of threads, nor, but
+/// for rounding, on the order of the base's vertices and triangles, on where it lies and how large it is. Throws
+/// Error(Fault::usage) unless all edges are positive, or for more than 100 million triangles.
 IsotropicMesh isotropic_mesh(const std::vector<Triangle>& triangles, const std::vector<Point>& points, double edge);
 
 /// The same with one edge length per base vertex, linear between. Lengths that grow by more than 0.3 per unit of length

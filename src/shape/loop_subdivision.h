@@ -1,6 +1,7 @@
 #pragma once
 // Loop subdivision (Loop 1987): refinement of connectivity and control values, and the limit masks.
-// Boundary vertices and edges follow the rules of the cubic B-spline; there are no corners.
+// Boundaries and creases (creases.h) are cubic B-splines of their own vertices, corners stay where they are: the rules
+// of Hoppe et al. 1994 with the plain weights, as OpenSubdiv has them.
 
 #include "shape/stencils.h"
 #include "shape/topology.h"
@@ -31,14 +32,29 @@ double loop_beta(Index valence);
 struct LimitMasks {
   Stencils position;
   Stencils tangent1,
-      tangent2;  ///< two independent tangents, tangent1 x tangent2 points outward; lengths have no meaning
+      tangent2;  ///< two independent tangents, tangent1 x tangent2 points outward; lengths have no meaning; on
+                 ///< creases those of one side
 };
 LimitMasks loop_limit_masks(const Topology& topology);
 
 /// What the position masks make of control values, and the unit normals that the tangents of control points have (0
-/// where they are parallel): without the memory of the masks.
+/// where they are parallel; on creases the mean of their sides): without the memory of the masks.
 std::vector<double> loop_limits(const Topology& topology, const std::vector<double>& control);
 std::vector<Point> loop_limits(const Topology& topology, const std::vector<Point>& control);
 std::vector<Point> loop_limit_normals(const Topology& topology, const std::vector<Point>& control);
+
+/// The same for every side of a crease.
+class CornerNormals {
+ public:
+  CornerNormals(const Topology& topology, const std::vector<Point>& control);
+  /// At a corner of a triangle.
+  const Point& at(std::size_t face, std::size_t corner) const {
+    return normals_[static_cast<std::size_t>(triangles_[face][corner])];
+  }
+
+ private:
+  std::vector<Triangle> triangles_;  ///< cut at creases
+  std::vector<Point> normals_;
+};
 
 }  // namespace pelage

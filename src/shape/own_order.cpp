@@ -69,6 +69,18 @@ std::vector<Index> renumbered_twins(const Topology& t, const std::vector<Index>&
   return twin;
 }
 
+/// The creases of triangles that begin with these half-edges, with these vertices of `t`.
+Creases renumbered_creases(const Topology& t, const std::vector<Index>& entries, const std::vector<Index>& vertex,
+                           const Topology& own) {
+  if (!t.creases.any()) return {};
+  Creases result{std::vector<char>(at(own.edge_count), 0), std::vector<char>(vertex.size())};
+  for (std::size_t v = 0; v < vertex.size(); ++v) result.corner[v] = t.creases.corner[at(vertex[v])];
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    for (Index k = 0, h = entries[i]; k < 3; ++k, h = next_halfedge(h))
+      result.edge[at(own.edge[3 * i + at(k)])] = t.creases.edge[at(t.edge[at(h)])];
+  return result;
+}
+
 }  // namespace
 
 Index first_halfedge(const Topology& t, const std::vector<Point>& points, Index vertex) {
@@ -128,6 +140,7 @@ OwnOrder own_order(const Topology& t, const std::vector<Point>& points) {
   for (Index v = 0; v < t.vertex_count; ++v) renumbered(v);
   own.twin = renumbered_twins(t, entries);
   number_from_twins(own);
+  own.creases = renumbered_creases(t, entries, order.vertex, own);
   return order;
 }
 

@@ -15,6 +15,14 @@ using Index = std::int32_t;
 inline Index next_halfedge(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
 inline Index previous_halfedge(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
+/// Where a surface is not smooth. Both are empty where it is smooth everywhere.
+struct Creases {
+  std::vector<char> edge;    ///< per edge: whether it is sharp (edges of the boundary need not say it)
+  std::vector<char> corner;  ///< per vertex: whether it stays where it is; those where three sharp edges meet, at least
+  bool any() const { return !edge.empty(); }
+  bool operator==(const Creases&) const = default;
+};
+
 struct Topology {
   Index vertex_count = 0;
   Index edge_count = 0;
@@ -23,12 +31,18 @@ struct Topology {
   std::vector<Index> edge;      ///< per halfedge: number of its undirected edge
   std::vector<Index> outgoing;  ///< per vertex: an outgoing halfedge; on the boundary the first one counter-clockwise
                                 ///< (its twin is -1); -1 for a vertex without triangles
+  Creases creases;
 
   Index origin(Index h) const { return triangles[static_cast<std::size_t>(h / 3)][static_cast<std::size_t>(h % 3)]; }
   Index target(Index h) const { return origin(next_halfedge(h)); }
   bool on_boundary(Index vertex) const {
     const Index h = outgoing[static_cast<std::size_t>(vertex)];
     return h < 0 || twin[static_cast<std::size_t>(h)] < 0;
+  }
+  /// Whether the surfaces on both sides of an edge meet at an angle, or it has one side only.
+  bool sharp(Index h) const {
+    return twin[static_cast<std::size_t>(h)] < 0 ||
+           (creases.any() && creases.edge[static_cast<std::size_t>(edge[static_cast<std::size_t>(h)])]);
   }
   /// The outgoing halfedge that follows h counter-clockwise around its origin, or -1 at the end of an open fan.
   Index rotate(Index h) const { return twin[static_cast<std::size_t>(previous_halfedge(h))]; }
