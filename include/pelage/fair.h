@@ -86,10 +86,12 @@ class Fairing {
   struct Parts;
   void measure();
   void measure_way();
+  bool noise_is_off(double correlation_before) const;
 
   FairOptions options_;
   FairReport report_;
   double roughness_ = 0;  ///< of the input, in mean edges: its noise, and those details of the shape that look like it
+  double correlation_ = 0;  ///< of the ways of neighbours so far, see fair/whiteness.h
   int most_steps_ = 0;
   bool finished_ = false;
   std::unique_ptr<Parts> parts_;

@@ -22,7 +22,7 @@ class Guided final : public FairMethod {
   }
 
   /// Flat parts go on improving slowly; from here on it is hardly worth the time.
-  int most_steps() const override { return 30; }
+  int most_steps() const override { return 40; }
 
  private:
   static constexpr int vertex_rounds = 10, unfold_rounds = 5;  // the first as Zhang et al. 2015

@@ -13,7 +13,7 @@ namespace {
 /// A face leans away from its normal when the cosine of the angle is below this (70 degrees).
 constexpr double leaning = 0.3;
 /// A triangle has become a needle when its shape is below the first and below this share of what it was.
-constexpr double needle_shape = 0.05, needle_share = 0.5;
+constexpr double needle_shape = 0.1, needle_share = 0.5;
 /// Share of the way to the mean of the neighbours: less than all of it, lest neighbours swap places.
 constexpr double relaxation = 0.5;
 
