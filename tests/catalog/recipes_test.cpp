@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -150,6 +151,153 @@ TEST(Cascades, EveryLargeSpotOfTheLeopardIsRinged) {
   }
   RecordProperty("mean", std::to_string(sum / static_cast<double>(leopard.discs.size())));
   EXPECT_GT(sum / static_cast<double>(leopard.discs.size()), 20);
+}
+
+/// On the unit sphere, with stages so many times as large as on the animal.
+pelage::Run grown_on_sphere(Recipe recipe, double factor) {
+  for (Stage& stage : recipe.stages) stage.size = {{stage.size->value.value * factor, Length::Unit::world}, {}};
+  recipe.quality = {"draft", {}};
+  pelage::Run run(make_program(recipe, builtin_shape("builtin:sphere?n=2562")));
+  while (!run.done()) run.advance(1000);
+  return run;
+}
+
+/// Mean of cos^2 of the angle between the gradients of two fields at the nodes where `counts`, by the square of the
+/// first.
+double alignment(const Space& space, const Vector& u, const Vector& v, const std::vector<char>& counts) {
+  const Vector uv = space.gradient_product(SampleRule::vertices, u, v);
+  const Vector uu = space.gradient_product(SampleRule::vertices, u, u);
+  const Vector vv = space.gradient_product(SampleRule::vertices, v, v);
+  double sum = 0, all = 0;
+  for (Eigen::Index i = 0; i < uv.size(); ++i) {
+    if (!counts[static_cast<std::size_t>(i)] || !(vv[i] > 0)) continue;
+    sum += uv[i] * uv[i] / vv[i];
+    all += uu[i];
+  }
+  return sum / all;
+}
+
+Vector coordinate(const Space& space, std::size_t d) {
+  Vector x(space.unknowns());
+  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = space.control()[static_cast<std::size_t>(i)][d];
+  return x;
+}
+
+/// Wide stripes around the axis x, and within each light one narrow stripes that run along it.
+TEST(Cascades, NarrowStripesOfTheLionfishRunAlongTheWideOnes) {
+  const pelage::Run run = grown_on_sphere(load_recipe("lionfish"), 8);
+  const Space& space = run.space();
+  const auto& wide = run.finished()[0].fields;  // r, s2, s1, g2, g1
+  const Vector narrow = run.coefficients()[4] - run.coefficients()[3], x = coordinate(space, 0);
+  std::vector<char> light, all(static_cast<std::size_t>(x.size()), 1);
+  for (Eigen::Index i = 0; i < x.size(); ++i) light.push_back(wide[4][i] < wide[3][i] && std::abs(x[i]) < 0.9);
+  EXPECT_GT(alignment(space, wide[4] - wide[3], x, all), 0.95);
+  EXPECT_GT(alignment(space, narrow, x, light), 0.85);
+  constexpr std::size_t slices = 150;
+  std::vector<double> mean(slices, 0), count(slices, 0), dark(slices, 0);
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const auto k = static_cast<std::size_t>((x[i] + 1) / 2 * (slices - 1));
+    mean[k] += narrow[i];
+    count[k] += 1;
+    dark[k] += wide[4][i] >= wide[3][i];
+  }
+  int bands = 0, stripes = 0;
+  for (std::size_t k = 8; k + 8 < slices; ++k) {
+    if (count[k] == 0 || count[k - 1] == 0) continue;
+    const bool is_light = 2 * dark[k] < count[k], was_light = 2 * dark[k - 1] < count[k - 1];
+    bands += is_light && !was_light;
+    stripes += is_light && was_light && mean[k] > 0 && mean[k - 1] <= 0;
+  }
+  EXPECT_GE(bands, 2);
+  EXPECT_GE(stripes, 2 * (bands - 1)) << bands;  // those at the ends of the axis are not whole
+}
+
+/// Nothing but the initiators makes the stripes: the seed counts for nothing, and without them nothing happens.
+TEST(ZebraTurk, StripesComeFromTheInitiators) {
+  Recipe recipe = load_recipe("zebra-turk");
+  recipe.stages[0].size->value.value = 0.07;
+  recipe.quality = {"draft", {}};
+  const TriangleMesh shape = builtin_shape("builtin:animal?n=3000");
+  const auto grown = [&] {
+    pelage::Run run(make_program(recipe, shape));
+    while (!run.done()) run.advance(1000);
+    return run;
+  };
+  const pelage::Run run = grown();
+  recipe.stages[0].seed = 7;
+  const pelage::Run other = grown();
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(run.coefficients()[i], other.coefficients()[i]);
+
+  // Stripes lie across the legs.
+  const Space& space = run.space();
+  const Vector stripes = run.coefficients()[4] - run.coefficients()[3], y = coordinate(space, 1);
+  std::vector<char> legs;
+  for (const double height : y) legs.push_back(height > 0.15 && height < 0.4);
+  EXPECT_GT(alignment(space, stripes, y, legs), 0.75);  // of random stripes 0.5
+  EXPECT_FALSE(run.uniform());
+
+  recipe.stages[0].initial.clear();
+  EXPECT_TRUE(grown().uniform());
+}
+
+/// One system sets the directions of another: along the axis y where it is low, across where it is high.
+TEST(Parquet, StripesLieAcrossEachOther) {
+  Recipe recipe = load_recipe("parquet");
+  recipe.stages[1].size->value.value = 0.05;
+  const pelage::Run run = grown_on_sphere(recipe, 7);
+  const Space& space = run.space();
+  const auto& patches = run.finished()[0].fields;  // r, s2, s1, g2, g1
+  const Vector y = coordinate(space, 1), stripes = run.coefficients()[1] - run.coefficients()[0];
+  std::vector<char> high, low;
+  for (Eigen::Index i = 0; i < y.size(); ++i) {
+    const double difference = std::abs(y[i]) < 0.9 ? patches[4][i] - patches[3][i] : 0;
+    high.push_back(difference > 0.4);
+    low.push_back(difference < -0.4);
+  }
+  EXPECT_LT(alignment(space, stripes, y, low), 0.25);
+  EXPECT_GT(alignment(space, stripes, y, high), 0.75);
+}
+
+/// One system makes the substrate of another uneven: there spots are of more kinds of sizes.
+TEST(UnevenGround, SpotsAreRaggedWhereTheFirstSystemIsHigh) {
+  const pelage::Run run = grown_on_sphere(load_recipe("uneven-ground"), 6.5);
+  const auto& ground = run.finished()[0].fields;  // r, s2, s1, g2, g1
+  const Vector b = run.coefficients()[1];
+  std::vector<char> high, in_spot;
+  for (Eigen::Index i = 0; i < b.size(); ++i) {
+    high.push_back(ground[4][i] > ground[3][i]);
+    in_spot.push_back(b[i] < 3);
+  }
+  // Per kind of ground: how many spots, the sum of their vertices, and that of the squares.
+  std::array<std::array<double, 3>, 2> sums{};
+  for (const Spot& s : spots(run.world().topology(), run.system().sampling->position, in_spot, high)) {
+    const auto n = static_cast<double>(s.members.size());
+    std::array<double, 3>& sum = sums[s.large];
+    sum = {sum[0] + 1, sum[1] + n, sum[2] + n * n};
+  }
+  const auto variation = [](const std::array<double, 3>& sum) {
+    const double mean = sum[1] / sum[0];
+    return std::sqrt(sum[2] / sum[0] - mean * mean) / mean;
+  };
+  EXPECT_GT(sums[0][0], 20);
+  EXPECT_GT(sums[1][0], 20);
+  EXPECT_GT(variation(sums[1]), 1.5 * variation(sums[0])) << variation(sums[1]) << ' ' << variation(sums[0]);
+}
+
+/// Run to its end: patches apart from each other, with pale lines of about one width between them, that cover most.
+TEST(Giraffe, PatchesAreApartAndFillTheSurface) {
+  const pelage::Run run = grown_on_sphere(load_recipe("giraffe"), 4);
+  const Vector difference = run.space().node_values() * (run.coefficients()[1] - run.coefficients()[0]);
+  const auto& position = run.system().sampling->position;
+  std::vector<char> on;
+  for (const double d : difference) on.push_back(d > -0.06);
+  double covered = 0;
+  for (const char c : on) covered += c;
+  EXPECT_GT(covered, 0.5 * static_cast<double>(on.size()));
+  EXPECT_LT(covered, 0.85 * static_cast<double>(on.size()));
+  const std::vector<Spot> patches = spots(run.world().topology(), position, on, on);
+  EXPECT_GE(patches.size(), 20U);
+  for (const Spot& s : patches) EXPECT_LT(static_cast<double>(s.members.size()), 0.25 * covered);
 }
 
 /// Mean angle in degrees between the stripes of a finished run and the field they follow, weighted with the squared
