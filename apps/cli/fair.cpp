@@ -33,7 +33,8 @@ std::string edges(double length) { return brief(length) + " mean edges"; }
 std::string settings(const FairReport& r) {
   std::string text;
   if (r.tau > 0) text += ", tau " + brief(r.tau) + " edge^2";
-  if (r.angle > 0) text += ", sigma " + brief(r.sigma) + " edge, angle " + brief(r.angle) + " degrees";
+  if (r.sigma > 0) text += ", sigma " + brief(r.sigma) + " edge";
+  if (r.angle > 0) text += ", angle " + brief(r.angle) + " degrees";
   if (r.range > 0) text += ", range of normals " + brief(r.range);
   return text;
 }
@@ -154,14 +155,20 @@ void add_method_options(CLI::App* app, FairCommand& command) {
   app->add_option("--tau", options.tau,
                   "isotropic, paper, attributes: time of one step in squared mean edges (0.1, 0.2, 0.1)")
       ->type_name("X");
-  app->add_option("--sigma", options.sigma, "paper: width of the smoothing before curvatures are taken, edges (1)")
+  app->add_option("--sigma", options.sigma,
+                  "paper: width of a Gaussian before curvatures are taken, edges (default: a bilateral filter)")
       ->type_name("X")
       ->excludes(attribute);
-  app->add_option("--angle", options.angle, "paper: bend per edge that counts as an edge of the shape, degrees (11.5)")
+  app->add_option("--angle", options.angle,
+                  "paper: bend per edge that counts as an edge of the shape, degrees (default: the median, 5 or more)")
       ->type_name("X")
       ->excludes(attribute);
   app->add_option("--mu", options.mu, "paper: 0 adapts diffusion to the size of triangles, 1 the time step (0)")
       ->type_name("X")
+      ->excludes(attribute);
+  app->add_option("--motion", options.motion,
+                  "paper: normal (default), or full: vertices move in all directions, as printed")
+      ->type_name("KIND")
       ->excludes(attribute);
   app->add_flag("--slide", options.slide, "Let boundary vertices move along the boundary (default: they stay)")
       ->excludes(attribute);
@@ -174,8 +181,9 @@ Command add_fair(CLI::App& parent) {
   CLI::App* app = parent.add_subcommand(
       "fair",
       "Take the noise off a mesh and keep its edges\n"
-      "Estimates the noise, filters the normals of the triangles and lets the vertices follow, until as much has moved "
-      "as the noise amounts to. Triangles, attributes and volume stay; boundaries do not move. With --attribute the "
+      "Estimates the noise, filters the normals of the triangles and lets the vertices follow, until shape begins to "
+      "go "
+      "along with the noise. Triangles, attributes and volume stay; boundaries do not move. With --attribute the "
       "same "
       "for a function on the surface. Says what was chosen; options override.");
   app->add_option("SHAPE", command->shape, "An OBJ, PLY, STL, OFF, glTF or GLB file, or builtin:NAME?n=VERTICES")

@@ -21,8 +21,11 @@ struct FairOptions {
   std::optional<double> noise = {};  ///< standard deviation along the normals, in mean edges; default: estimated
   std::optional<int> steps = {};     ///< exactly so many; default: until as much has moved as the noise amounts to
   std::optional<double> tau = {};    ///< isotropic, paper: time of a step, in squared mean edges
-  std::optional<double> sigma = {};  ///< paper: width of the Gaussian before curvatures are taken, in mean edges
-  std::optional<double> angle = {};  ///< paper: bend per edge beyond which diffusion across is throttled, degrees
+  std::optional<double> sigma = {};  ///< paper: width of a Gaussian before curvatures are taken, in mean edges;
+                                     ///< default: a bilateral filter
+  std::optional<double> angle = {};  ///< paper: bend per edge beyond which diffusion across is throttled, degrees;
+                                     ///< default: the median, 5 or more
+  std::string motion = "normal";     ///< paper: "normal", or "full" as printed: in all directions, which folds corners
   double mu = 0;                     ///< paper: 0 adapts the tensor to the local size of triangles, 1 the time step
   bool slide = false;                ///< vertices on boundaries move along these, but for corners; else they stay
 };
@@ -33,7 +36,7 @@ struct FairReport {
   int steps = 0;
   double moved = 0;                            ///< root mean square along the normals, in mean edges
   double volume_before = 0, volume_after = 0;  ///< of the closed parts, world units^3
-  double tau = 0, sigma = 0, angle = 0;        ///< that were used, 0 where the method has none
+  double tau = 0, sigma = 0, angle = 0;        ///< that were used last, 0 where the method has none
   double range = 0;                            ///< guided: of normals in the last step, |n - n'|
   std::size_t folded = 0;                      ///< triangles that still lean away from their smoothed normal
 };

@@ -30,6 +30,8 @@ constexpr double largest_share = 1.05;
 /// before it to compare with, so that it takes more. Details of bunnies, heads, horses and parts first make more error
 /// than the noise did at 1.4 to 1.8.
 constexpr double suspect_growth = 1.35, certain_growth = 1.6, certain_first_growth = 2;
+/// On top of that, growth in one step that is too little to matter in any number of steps that are taken.
+constexpr double negligible_growth = 8e-4;
 
 void require_between(const std::optional<double>& value, double low, double high, const std::string& name) {
   if (value && !(*value >= low && *value <= high))
@@ -141,8 +143,9 @@ void Fairing::step() {
 bool Fairing::noise_is_off(double correlation_before) const {
   const bool enough = report_.moved >= noise_share * report_.noise;
   if (options_.noise || options_.method != "guided") return enough;
-  const double growth = growth_of_correlation(report_.steps, correlation_before, correlation_);
-  return growth > (report_.steps == 1 ? certain_first_growth : certain_growth) || (enough && growth > suspect_growth) ||
+  const double growth = correlation_ - correlation_before, of_noise = growth_of_noise(report_.steps);
+  const double certain = report_.steps == 1 ? certain_first_growth : certain_growth;
+  return growth > certain * of_noise + negligible_growth || (enough && growth > suspect_growth * of_noise) ||
          report_.moved > largest_share * report_.noise;
 }
 

@@ -5,13 +5,6 @@
 
 namespace pelage {
 
-namespace {
-
-/// Growth in one step that is too little to matter in any number of steps that are taken.
-constexpr double negligible = 8e-4;
-
-}  // namespace
-
 double correlation_of_ways(const Topology& topology, const std::vector<char>& fixed, const std::vector<Point>& from,
                            const std::vector<Point>& points) {
   const std::vector<Point> normal = vertex_normals(topology.triangles, points);
@@ -34,8 +27,6 @@ double correlation_of_ways(const Topology& topology, const std::vector<char>& fi
 
 double correlation_of_noise(int steps) { return -0.9 / (steps + 2.8); }
 
-double growth_of_correlation(int steps, double before, double after) {
-  return (after - before - negligible) / (correlation_of_noise(steps) - correlation_of_noise(steps - 1));
-}
+double growth_of_noise(int steps) { return correlation_of_noise(steps) - correlation_of_noise(steps - 1); }
 
 }  // namespace pelage

@@ -65,7 +65,7 @@ void add_texture(Fingerprint& f, const Texture& t) {
 }
 
 void add_fairing(Fingerprint& f, const FairOptions& o) {
-  f.add(o.method).add(o.mu).add(std::uint64_t{o.slide});
+  f.add(o.method).add(o.motion).add(o.mu).add(std::uint64_t{o.slide});
   for (const auto& value : {o.noise, o.tau, o.sigma, o.angle}) add_optional(f, value);
   add_optional(f, o.steps);
 }
