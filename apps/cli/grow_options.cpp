@@ -165,6 +165,11 @@ void add_time_options(CLI::App& app, GrowOptions& o) {
   app.add_option("--solver", o.solver, "Solver of the linear systems of implicit steps, to compare" + solver_choices())
       ->type_name("NAME")
       ->group(group);
+  app.add_option("--refresh", o.refresh,
+                 "Stepper semi-implicit: make its matrices anew every so many steps (default: 1), to compare")
+      ->type_name("N")
+      ->check(whole_number(1, most_steps))
+      ->group(group);
   app.add_option("--step", o.step, "Fixed time step, model time (default: chosen as the pattern allows)")
       ->type_name("T")
       ->check(positive_number())
@@ -517,6 +522,7 @@ void apply(const GrowOptions& o, std::vector<Stage>& stages) {
     if (o.cells) stage.cells = Given<std::int64_t>{*o.cells, {"--cells"}};
     override(o.stepper, stage.stepper);
     if (o.solver) stage.solver = {*o.solver, {"--solver"}};
+    if (o.refresh) stage.refresh = Given<std::int64_t>{*o.refresh, {"--refresh"}};
     override(o.step, stage.step);
     override(o.until, stage.until);
     override(o.steps, stage.steps);

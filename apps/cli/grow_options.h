@@ -25,7 +25,7 @@ struct GrowOptions {
   std::optional<double> input_unit;   ///< metres
   std::optional<double> step, until, stationary, growth, crease;
   double every_minutes = 5;  ///< between checkpoints
-  std::optional<std::int64_t> steps, every;
+  std::optional<std::int64_t> steps, every, refresh;
   std::optional<std::uint64_t> seed;
   std::optional<int> detail, threads;
   std::optional<std::int64_t> cells, triangles;

@@ -252,6 +252,11 @@ void GrowReport::grown(const Run& run, std::size_t stage, const RunSummary& s) {
                       counted(static_cast<std::size_t>(s.solves), "system") + " by " + std::string(p.solver->name) +
                       " in " + counted(static_cast<std::size_t>(s.iterations), "iteration") + ", " +
                       duration(s.solve_seconds));
+  if (s.indefinite > 0)
+    warning(
+        counted(static_cast<std::size_t>(s.indefinite), "system") + " of " +
+        counted(static_cast<std::size_t>(s.solves), "system") +
+        " had a matrix that is not positive definite: such steps are too large to follow the equations; lower --step");
   line("grown", (run.program().stages.size() > 1 ? p.name + ": " : "") +
                     counted(static_cast<std::size_t>(s.steps), "step") + " of " + std::string(p.stepper->name) +
                     " to time " + number(s.time) + "; " + stop_reason(s.status));
@@ -262,6 +267,7 @@ void GrowReport::grown(const Run& run, std::size_t stage, const RunSummary& s) {
                                       {"change", s.change},
                                       {"solver_iterations", s.iterations},
                                       {"solves", s.solves},
+                                      {"indefinite", s.indefinite},
                                       {"solve_seconds", s.solve_seconds},
                                       {"rejected_steps", s.rejected},
                                       {"minimum", json_number(s.minimum)},

@@ -98,6 +98,8 @@ struct Stage {
   Given<std::string> stepper{"", {}};          ///< empty: the first that suits the method and the model
   Given<std::string> solver{"", {}};           ///< of its linear systems: "jacobi-cg" (the default), "cg", "red-black"
                                                ///< or "sor"; empty: any
+  std::optional<Given<std::int64_t>> refresh;  ///< its matrices are made anew every so many steps ("semi-implicit");
+                                               ///< default: every one
   std::optional<double> step;         ///< fixed step [model time]; default: adaptive, or the stepper's safe step
   std::optional<double> until;        ///< stop at this model time; default: the model's suggestion
   std::optional<std::int64_t> steps;  ///< stop after so many steps

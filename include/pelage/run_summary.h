@@ -26,6 +26,7 @@ struct RunSummary {
   double bytes = 0;                 ///< that went between memory and processor in them, at least; 0 where not counted
   std::int64_t rejected = 0;        ///< steps repeated with a smaller size
   std::int64_t solves = 0;          ///< linear systems of these steps
+  std::int64_t indefinite = 0;      ///< of these, matrices that were not positive definite, as of steps too large
   double solve_seconds = 0;         ///< that they took
   double minimum = 0, maximum = 0;  ///< of the coefficients of all species
 };

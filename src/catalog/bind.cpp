@@ -124,6 +124,7 @@ StageProgram bind_stage(const PlannedStage& planned, const Program& program, con
   s.stepper = planned.stepper;
   s.solver = planned.solver;
   s.solver_asked = !asked.solver.value.empty();
+  if (asked.refresh) s.refresh = asked.refresh->value;
   const StageSize size = stage_size(asked, planned.wavelength, scale);
   s.size = size.wavelength;
   s.length_unit = size.length_unit;

@@ -89,6 +89,7 @@ std::string what_stepper_cannot(const StepperKind& stepper, const Method& method
   if (std::string what = what_borders_need(stepper, stage.boundary); !what.empty()) return what;
   if (!stage.solver.value.empty() && !stepper.solves)
     return "use the solver \"" + stage.solver.value + "\": it solves no linear systems";
+  if (stage.refresh && !stepper.refreshes) return "keep its matrices for some steps: it makes none of the fields";
   if (!stepper.couples && !model.coupled().empty())
     return "grow \"" + model.name() + "\", whose species are coupled by lap()";
   if (!stepper.holds && model.held()) return "hold parts of the surface";

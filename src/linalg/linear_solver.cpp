@@ -4,12 +4,14 @@
 #include <cmath>
 #include <optional>
 
+#include "linalg/minimal_residual.h"
 #include "linalg/sor.h"
 
 namespace pelage {
 
 namespace {
 
+/// By minimal residuals where conjugate gradients find that a matrix is not positive definite.
 template <bool preconditioned>
 class GradientSolver final : public LinearSolver {
  public:
@@ -18,13 +20,22 @@ class GradientSolver final : public LinearSolver {
     preconditioner_ = Jacobi<Vector>(preconditioned ? diagonal(matrix) : Vector(Vector::Ones(matrix.rows())));
   }
   SolveReport solve(const Vector& b, Vector& x, const Held* held, double tolerance) override {
-    return conjugate_gradient(*matrix_, preconditioner_, b, x, held, {.tolerance = tolerance}, work_);
+    guess_ = x;
+    const SolveReport first =
+        conjugate_gradient(*matrix_, preconditioner_, b, x, held, {.tolerance = tolerance}, work_);
+    if (first.positive_definite) return first;
+    x = guess_;
+    SolveReport report = minimal_residuals(*matrix_, b, x, held, {.tolerance = tolerance});
+    report.iterations += first.iterations;
+    report.positive_definite = false;
+    return report;
   }
 
  private:
   const SparseMatrix* matrix_ = nullptr;
   Jacobi<Vector> preconditioner_;
   ConjugateGradientWork<Vector> work_;
+  Vector guess_;
 };
 
 /// Young's best factor 2 / (1 + sqrt(1 - mu^2)) for the slowest mode of Jacobi's iteration, which takes mu of it to the

@@ -1,6 +1,6 @@
 #pragma once
-// Who solves the symmetric positive definite systems of implicit steps: conjugate gradients, and what papers on fitted
-// grids take instead, to be compared with them.
+// Who solves the symmetric systems of implicit steps, which are positive definite unless the step is too large:
+// conjugate gradients, and what papers on fitted grids take instead, to be compared with them.
 
 #include <memory>
 #include <span>
@@ -17,7 +17,7 @@ class LinearSolver {
   /// Prepares for a matrix, which has to stay as it is while it is solved with.
   virtual void update(const SparseMatrix& matrix) = 0;
   /// x holds the first guess and the result. Equations of held unknowns do not count. Relative `tolerance` on |b - A
-  /// x|.
+  /// x|. May converge though the report says that the matrix is not positive definite.
   virtual SolveReport solve(const Vector& b, Vector& x, const Held* held, double tolerance) = 0;
 };
 

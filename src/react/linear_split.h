@@ -1,5 +1,5 @@
 #pragma once
-// The reaction term of the generalised PDE (eq. 2 of Bajaj, Xu, Zhang 2008) as R(u) = C2 u + C3.
+// The reaction term of the generalised PDE (eq. 2 of Bajaj, Zhang, Xu 2008) as R(u) = C2 u + C3.
 
 #include "react/expression.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // Reaction models as data: what a model file says (ModelSource), and that compiled to expressions (Model).
 //
-// Each species u obeys the generalised PDE (eq. 2 of Bajaj, Xu, Zhang 2008)
+// Each species u obeys the generalised PDE (eq. 2 of Bajaj, Zhang, Xu 2008)
 //     du/dt = C0 div(C1 grad u) + R,   R = C2 u + C3,
 // given either by a diffusion (C0 = 1, C1 = diffusion) and a rate R, or by C0, C1, C2, C3 one by one. A rate may
 // contain Laplacians of this and other species with constant coefficients; and a species w may be algebraic, w = f +

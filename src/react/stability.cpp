@@ -97,8 +97,9 @@ std::optional<VectorXd> steady_state_from(const PointSystem& system, VectorXd u)
     if (!jacobian.allFinite()) return std::nullopt;
     const VectorXd step = least_squares(jacobian, rate);
     const double size = 1e-3 + u.norm();
-    if (step.norm() <= 1e-13 * size)
-      return rate.norm() <= 1e-9 * jacobian.norm() * size ? std::optional(u) : std::nullopt;
+    // Where the Jacobian is singular, steps also end where rates are smallest without being 0.
+    const auto rests = [&](double share) { return rate.norm() <= share * jacobian.norm() * size; };
+    if (step.norm() <= 1e-13 * size) return rests(1e-9) ? std::optional(u) : std::nullopt;
     double length = 1;
     VectorXd next = system.complete(u(evolving) - step);
     VectorXd next_rate = system.rate(next);
@@ -108,7 +109,8 @@ std::optional<VectorXd> steady_state_from(const PointSystem& system, VectorXd u)
       next_rate = system.rate(next);
     }
     if (!next_rate.allFinite()) return std::nullopt;
-    if (!(next_rate.norm() < rate.norm())) return step.norm() <= 1e-7 * size ? std::optional(u) : std::nullopt;
+    if (!(next_rate.norm() < rate.norm()))
+      return step.norm() <= 1e-7 * size && rests(1e-7) ? std::optional(u) : std::nullopt;
     u = next;
     rate = next_rate;
   }

@@ -155,6 +155,7 @@ Stage read_stage(const Value& table, std::size_t count) {
   if (const Value* v = table.find("cells")) s.cells = Given<std::int64_t>{whole_number(*v, 1), v->where()};
   read_text(table, "stepper", s.stepper);
   read_text(table, "solver", s.solver);
+  if (const Value* v = table.find("refresh")) s.refresh = Given<std::int64_t>{whole_number(*v, 1), v->where()};
   s.step = positive(table, "step");
   s.until = positive(table, "until");
   if (const Value* v = table.find("steps")) s.steps = whole_number(*v, 0);

@@ -119,6 +119,7 @@ void add_stage_traits(Traits& t, const StageProgram& s, const std::string& of) {
   t.push_back({"seed" + of, std::to_string(s.seed)});
   t.push_back({"stepper" + of, std::string(s.stepper->name)});
   t.push_back({"solver" + of, std::string(s.solver->name)});
+  t.push_back({"refresh" + of, std::to_string(s.refresh)});
   t.push_back({"step" + of, number_or_none(s.step)});
   t.push_back({"equations" + of, hashed([&](Fingerprint& f) {
                  f.add(s.name).add(s.model.fingerprint()).add(s.suggested_step).add(std::uint64_t{s.excluded});

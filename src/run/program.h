@@ -34,6 +34,7 @@ struct StageProgram {
   std::string model_name;  ///< as the recipe gives it, with its variant
   const StepperKind* stepper = &sbdf2;
   const SolverKind* solver = &jacobi_gradients;
+  std::int64_t refresh = 1;    ///< see StepRequest
   bool solver_asked = false;   ///< so that there have to be matrices to solve with
   double size = 0;             ///< wanted wavelength [world units]
   bool size_known = true;      ///< false: `size` is not a wavelength but what the mesh has to resolve

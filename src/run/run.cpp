@@ -235,12 +235,14 @@ const RunSummary& Run::advance(std::int64_t steps) {
     const StageProgram& p = stage_program();
     follow_surface(now_->state.time + next_step());
     now_->equations.update(now_->state);
-    StepRequest request{.dt = next_step(), .solver_tolerance = solver_tolerance, .solver = p.solver};
+    StepRequest request{
+        .dt = next_step(), .solver_tolerance = solver_tolerance, .solver = p.solver, .refresh = p.refresh};
     if (p.adaptive()) request.largest_error = step_tolerance();
     const StepReport report = now_->stepper->step(system(), now_->state, request);
     now_->summary.iterations += report.iterations;
     now_->summary.bytes += report.bytes;
     now_->summary.solves += report.solves;
+    now_->summary.indefinite += report.indefinite;
     now_->summary.solve_seconds += report.solve_seconds;
     if (report.accepted) {
       accept(report, request.dt);
@@ -292,6 +294,7 @@ void Run::follow_surface(double time) {
   const SharedMatrix mass_before = system().mass;
   now_->equations = StageSystem(stage_program(), world_.shared_space(), now_->material);
   if (program_->motion.physical) keep_amounts(*mass_before);
+  if (!stage_program().stepper->keeps_rates) state.past_rates.clear();
   if (state.past_rates.empty()) return;
   std::vector<Vector> samples;
   sample_fields(system(), state.past[0], samples);
@@ -595,6 +598,7 @@ bool Run::fits(const Snapshot& s) const {
   for (std::size_t k = 0; k < s.finished.size(); ++k)
     fits = fits && has_sizes(s.finished[k].fields, program_->stages[k].model.species_count(), unknowns);
   if (p.stepper->keeps_rates && !s.state.past.empty()) fits = fits && has_rates(s.state.past_rates, p);
+  if (p.stepper->refreshes && !s.state.past_rates.empty()) fits = fits && has_rates(s.state.past_rates, p);
   if (!world_.surface()) return fits;
   return fits && s.surface.scale > 0 && has_sizes(s.began_at, 1, 3 * std::ssize(program_->shape->points)) &&
          has_sizes(s.faired, 1, 3 * std::ssize(world_.surface()->state().fairing.points));

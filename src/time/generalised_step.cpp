@@ -33,10 +33,10 @@ StepReport generalised_step(const Assembler& assembler, const std::vector<Point>
   SparseMatrix matrix;
   combine(1, mass, dt * (pde.c0.empty() ? pde.c0_constant : 1), stiffness, matrix);
   if (!pde.c2.empty()) combine(1, matrix, -dt, assembler.mass(control, over_c0(pde.c2, pde.c0)), matrix);
-  const Jacobi preconditioner(diagonal(matrix));
+  const std::unique_ptr<LinearSolver> solver = jacobi_gradients.make();
+  solver->update(matrix);
   StepReport report;
   Eigen::MatrixXd result = u;
-  ConjugateGradientWork<Vector> work;
   for (Eigen::Index k = 0; k < u.cols() && report.failure.empty(); ++k) {
     Vector b = mass * Vector(u.col(k));
     if (pde.c3.size() > 0) {
@@ -45,9 +45,8 @@ StepReport generalised_step(const Assembler& assembler, const std::vector<Point>
       b += dt * load(sampling, source);
     }
     Vector x = result.col(k);
-    solve_noted("component " + std::to_string(k), report, [&] {
-      return conjugate_gradient(matrix, preconditioner, b, x, nullptr, {.tolerance = solver_tolerance}, work);
-    });
+    solve_noted("component " + std::to_string(k), report,
+                [&] { return solver->solve(b, x, nullptr, solver_tolerance); });
     result.col(k) = x;
   }
   if (!report.failure.empty()) return report;

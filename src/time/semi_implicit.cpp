@@ -1,3 +1,5 @@
+#include <deque>
+
 #include "base/dense.h"
 #include "base/parallel.h"
 #include "time/step_support.h"
@@ -11,6 +13,8 @@ namespace {
 /// with M, M[C2] and the load divided by C0 where it varies, and
 /// every coefficient taken at step n, also for the species solved second. (The L_ij printed below (14) and (15)
 /// have two signs exchanged; the weak forms (14), (15) and eq. (10) agree with this.)
+/// Matrices that are kept for some steps have the C2 of an earlier one, the difference goes to the right: C3(u^n) +
+/// (C2(u^n) - C2) u^n in place of C3(u^n), which is of first order, too, and has the same states at rest.
 class SemiImplicitEuler final : public Stepper {
  public:
   StepReport step(const System& system, State& state, const StepRequest& request) override {
@@ -18,29 +22,55 @@ class SemiImplicitEuler final : public Stepper {
     if (!system.coupled.index.empty() || system.held)
       return refusal("it neither couples species by Laplacians nor holds any");
     StepReport report;
-    use(*request.solver);
     sample_fields(system, state.now, samples_);
     split(system, state.time);
     next_ = state.now;
+    const bool renews = request.refresh == 1 || state.past_rates.empty() || state.step % request.refresh == 0;
+    const std::vector<Vector>& kept = renews ? c2_ : state.past_rates;
+    kept_.resize(system.species.size());
     const std::vector<Vector> fluxes = system.fluxes ? system.fluxes(state.now, state.time) : std::vector<Vector>{};
     for (std::size_t i = 0; i < system.species.size() && report.failure.empty(); ++i) {
       const Species& species = system.species[i];
       if (species.follows) continue;
-      const SparseMatrix& mass = *mass_of(system, i);
       const Vector over_c0 = weight_of(system, i).cwiseQuotient(system.sampling->weight);
-      const SparseMatrix reaction = system.weighted_mass(c2_[i].cwiseProduct(over_c0));
-      combine(1, mass, -dt, reaction, matrix_);
-      combine(1, matrix_, dt * species.diffusion, *species.stiffness, matrix_);
-      Vector b = mass * state.now[i] + dt * load(*system.sampling, c3_[i].cwiseProduct(over_c0));
+      if (renews || !kept_[i].serves(system, i, request))
+        kept_[i].make(system, i, request, system.weighted_mass(kept[i].cwiseProduct(over_c0)));
+      if (!renews) c3_[i] += (c2_[i] - kept[i]).cwiseProduct(samples_[i]);
+      Vector b = *mass_of(system, i) * state.now[i] + dt * load(*system.sampling, c3_[i].cwiseProduct(over_c0));
       add_flux(fluxes, i, dt, b);
-      solver_->update(matrix_);
-      solve_noted(species.name, report, [&] { return solver_->solve(b, next_[i], nullptr, request.solver_tolerance); });
+      solve_noted(species.name, report,
+                  [&] { return kept_[i].solver->solve(b, next_[i], nullptr, request.solver_tolerance); });
     }
     advance(system, state, dt, next_, report);
+    if (report.accepted && request.refresh > 1 && renews) state.past_rates = c2_;
     return report;
   }
 
  private:
+  /// M - dt M[C2] + dt K of a species, and what it was made of.
+  struct Kept {
+    SparseMatrix matrix;
+    SharedMatrix mass, stiffness;
+    double dt = 0;
+    const SolverKind* kind = nullptr;
+    std::unique_ptr<LinearSolver> solver;
+
+    bool serves(const System& system, std::size_t i, const StepRequest& request) const {
+      return mass == mass_of(system, i) && stiffness == system.species[i].stiffness && dt == request.dt &&
+             kind == request.solver;
+    }
+    void make(const System& system, std::size_t i, const StepRequest& request, const SparseMatrix& reaction) {
+      mass = mass_of(system, i);
+      stiffness = system.species[i].stiffness;
+      dt = request.dt;
+      combine(1, *mass, -dt, reaction, matrix);
+      combine(1, matrix, dt * system.species[i].diffusion, *stiffness, matrix);
+      if (kind != request.solver) solver = request.solver->make();
+      kind = request.solver;
+      solver->update(matrix);
+    }
+  };
+
   void split(const System& system, double t) {
     FieldPointers u;
     MutableFieldPointers c2, c3;
@@ -57,15 +87,7 @@ class SemiImplicitEuler final : public Stepper {
                  [&](std::size_t begin, std::size_t end) { system.reaction.split(u, t, begin, end, c2, c3); });
   }
 
-  void use(const SolverKind& kind) {
-    if (kind_ == &kind) return;
-    kind_ = &kind;
-    solver_ = kind.make();
-  }
-
-  SparseMatrix matrix_;
-  const SolverKind* kind_ = nullptr;
-  std::unique_ptr<LinearSolver> solver_;
+  std::deque<Kept> kept_;  ///< which stay in their places: solvers know the matrices
   std::vector<Vector> samples_, c2_, c3_, next_;
 };
 
@@ -84,6 +106,7 @@ constexpr StepperKind semi_implicit = {
     .samples = SampleRule::quadrature,
     .amplification = amplification,
     .symmetric = true,
-    .solves = true};
+    .solves = true,
+    .refreshes = true};
 
 }  // namespace pelage

@@ -155,12 +155,13 @@ namespace {
 void note_solve(const SolveReport& solve, const std::string& names, StepReport& report) {
   report.iterations += solve.iterations;
   report.residual = std::max(report.residual, solve.residual);
-  if (!report.failure.empty()) return;
+  if (!solve.positive_definite) ++report.indefinite;
+  if (!report.failure.empty() || solve.converged) return;
   if (!solve.positive_definite)
     report.failure = "the matrix of " + names + " is not positive definite: the step is too large";
   else if (std::isnan(solve.residual))
     report.failure = "the solve for " + names + " meets what is not a number";
-  else if (!solve.converged)
+  else
     report.failure = "the solve for " + names + " did not converge (residual " + number(solve.residual) + ")";
 }
 

@@ -29,6 +29,7 @@ struct StepReport {
   double bytes = 0;     ///< that these read and wrote, at least: every array once a pass; 0 where not counted
   double residual = 0;  ///< relative, the largest of all species
   int solves = 0;       ///< linear systems
+  int indefinite = 0;   ///< of which the matrix was not positive definite
   double solve_seconds = 0;
   double error = 0;   ///< estimated local error relative to the size of the fields; 0 when unknown
   double change = 0;  ///< of the pattern per unit of time: root mean square of du/dt over that of the deviation
@@ -42,6 +43,8 @@ struct StepRequest {
   double largest_error = std::numeric_limits<double>::infinity();  ///< reject the step above this estimate
   double solver_tolerance = 1e-10;
   const SolverKind* solver = &jacobi_gradients;  ///< of steppers with StepperKind::solves
+  std::int64_t refresh = 1;  ///< of steppers with StepperKind::refreshes: their matrices are made of the fields at
+                             ///< every so many steps
 };
 
 class Stepper {
@@ -73,6 +76,7 @@ struct StepperKind {
   bool nodal = false;         ///< only for systems whose unknowns are the values at the samples
   bool symmetric = false;     ///< solves with stiffness matrices, or sums powers of them: they have to be symmetric
   bool solves = false;        ///< heeds StepRequest::solver
+  bool refreshes = false;     ///< heeds StepRequest::refresh
 };
 
 extern const StepperKind sbdf2;           ///< second-order semi-implicit backward differences, variable step (Ruuth

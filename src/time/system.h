@@ -114,7 +114,8 @@ struct State {
   std::vector<std::vector<Vector>> past;  ///< up to two earlier states, the latest first
   std::vector<double> past_steps;         ///< past_steps[k]: time between states k and k+1 back
   std::vector<Vector> past_rates;         ///< reaction at the latest earlier state, at the samples, and then
-                                          ///< its fluxes, if the system has any (SBDF2)
+                                          ///< its fluxes, if the system has any (SBDF2); or C2 at the samples, of which
+                                          ///< matrices were made that are kept (StepperKind::refreshes)
 };
 
 }  // namespace pelage

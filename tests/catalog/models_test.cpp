@@ -135,7 +135,7 @@ TEST(Models, NamesAreThoseOfTheFiles) {
 }
 
 TEST(Models, TuringSplitIsThatOfThePaper) {
-  // Fig. 2 of Bajaj, Xu, Zhang 2008: a: C2 = -s b, C3 = 16 s; b: C2 = s (a - 1), C3 = -s beta.
+  // Fig. 2 of Bajaj, Zhang, Xu 2008: a: C2 = -s b, C3 = 16 s; b: C2 = s (a - 1), C3 = -s beta.
   const Model model = compile(load_model("turing"), {{"unevenness", 0}});
   const std::vector<Point> points = {{0, 0, 0}, {1, 2, 3}};
   const Kinetics kinetics(model, {.positions = points}, 1);

@@ -69,6 +69,12 @@ TEST(Plan, SolversBelongToImplicitSteppers) {
       std::string::npos);
 }
 
+TEST(Plan, MatricesAreKeptByTheStepperThatMakesThemOfTheFields) {
+  EXPECT_EQ(plan(parse_recipe(turing + "refresh = 4\n", "t")).stages[0].stepper, &semi_implicit);
+  EXPECT_NE(fault_of_plan(turing + "stepper = \"sbdf2\"\nrefresh = 4\n").find("keep its matrices for some steps"),
+            std::string::npos);
+}
+
 TEST(Bind, FindsWhatNeedsTheShape) {
   EXPECT_EQ(fault_of_bind(turing), "");
   EXPECT_NE(

@@ -53,6 +53,10 @@ TEST(Checkpoint, WhatDecidesHowARunGoesOnIsATrait) {
             "seed 3 instead of 4");
   EXPECT_NE(difference(plain, traits([](Stage& s) { s.step = 0.5; })), "");
   EXPECT_NE(difference(plain, traits([](Stage& s) { s.stepper.value = "sbdf2"; })), "");
+  EXPECT_EQ(difference(traits([](Stage& s) { s.stepper.value = "semi-implicit"; }), traits([](Stage& s) {
+                         s.refresh = Given<std::int64_t>{4, {}};
+                       })),
+            "refresh 1 instead of 4");
   EXPECT_NE(difference(plain, traits([](Stage& s) { s.method.value = "linear"; })), "");
   EXPECT_NE(difference(plain, traits([](Stage& s) { s.size = Given<Length>{{0.7, Length::Unit::world}, {}}; })), "");
   // It may go on for longer than it was meant to.

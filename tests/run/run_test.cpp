@@ -55,6 +55,20 @@ TEST_P(EveryStepper, TwoSlicesAreOneSliceBitForBit) {
   EXPECT_GT((whole.coefficients()[0].array() - whole.coefficients()[0].mean()).matrix().norm(), 0);
 }
 
+/// Five steps to a set of matrices: the checkpoint comes between two.
+TEST(Run, MatricesThatAreKeptSurviveACheckpoint) {
+  Recipe recipe = small_recipe();
+  recipe.stages[0].refresh = Given<std::int64_t>{5, {}};  // which asks for the stepper semi-implicit
+  recipe.stages[0].step = 0.2;
+  auto whole = start(recipe), resumed = start(recipe), renewed = start(small_recipe());
+  whole.advance(7);
+  resumed.restore(whole.checkpoint());
+  whole.advance(6);
+  resumed.advance(6);
+  expect_same(whole, resumed);
+  EXPECT_THROW(renewed.restore(whole.checkpoint()), Error);
+}
+
 /// What is only shown is found at the end of every slice, and takes no part in the steps.
 TEST(Run, SpeciesThatFollowAreTheirFormulaAndLeaveTheStepsAlone) {
   for (const std::string method : {"remeshed", "loop"}) {

@@ -107,10 +107,20 @@ TEST(GeneralisedStep, FaultsAreTold) {
   Eigen::MatrixXd x = s.positions();
   const Eigen::MatrixXd before = x;
   EXPECT_THROW(s.step(zero, 0.1, x), Error);
-  GeneralisedPde growing;  // implicit growth beyond the step's reach: indefinite
-  growing.c2.assign(s.sampling.position.size(), 1000.0);
-  EXPECT_FALSE(s.step(growing, 1, x).accepted);
   EXPECT_EQ(x, before);
+}
+
+/// (1 - dt C2 + 2 dt) x' = x with C2 = 6 and dt = 1; the factor of harmonics of degree l is l (l + 1) - 5.
+TEST(GeneralisedStep, IndefiniteMatricesAreSolvedWith) {
+  const Sphere s;
+  GeneralisedPde growing;
+  growing.c2.assign(s.sampling.position.size(), 6.0);
+  Eigen::MatrixXd x = s.positions();
+  const Eigen::MatrixXd before = x;
+  const StepReport report = s.step(growing, 1, x);
+  ASSERT_TRUE(report.accepted) << report.failure;
+  EXPECT_EQ(report.indefinite, 3);
+  EXPECT_LT((x * -3 - before).norm() / before.norm(), 1e-3);
 }
 
 }  // namespace
