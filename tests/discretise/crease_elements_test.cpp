@@ -114,8 +114,9 @@ struct CreasedMesh {
   std::vector<Point> control;
   SimulationMesh mesh;
 
-  CreasedMesh(const std::string& name, double edge)
-      : shape(builtin_shape(name)),
+  CreasedMesh(const std::string& name, double edge) : CreasedMesh(builtin_shape(name), edge) {}
+  CreasedMesh(TriangleMesh given, double edge)
+      : shape(std::move(given)),
         levels(creased(shape, 40), loop_refine),
         control(shape.points),
         mesh(levels, control, {edge, {}}, 1'000'000) {}
@@ -152,6 +153,34 @@ TEST(CreaseElements, SimulationMeshesKeepTheEdgesOfACube) {
     }
     EXPECT_NEAR(lines, 12 * s, 1e-9 * s);
     EXPECT_EQ(std::ranges::count(t.creases.corner, 1), 8);
+  }
+}
+
+/// A sheet from -1 to 1 that is folded by 50 degrees along x = 0.
+TriangleMesh folded_sheet(int n) {
+  TriangleMesh sheet;
+  const double slope = std::tan(25 * std::numbers::pi / 180);
+  for (int j = 0; j <= 2 * n; ++j)
+    for (int i = 0; i <= 2 * n; ++i) {
+      const double x = static_cast<double>(i) / n - 1, y = static_cast<double>(j) / n - 1;
+      sheet.points.push_back({x, y, -slope * std::abs(x)});
+      const int a = j * (2 * n + 1) + i, b = a + 1, c = a + 2 * n + 1, d = c + 1;
+      if (i < 2 * n && j < 2 * n) sheet.triangles.insert(sheet.triangles.end(), {{a, b, d}, {a, d, c}});
+    }
+  return sheet;
+}
+
+/// Also where the mesh would turn an edge for the sake of valences.
+TEST(CreaseElements, SimulationMeshesKeepShallowEdges) {
+  const CreasedMesh made(folded_sheet(8), 0.06);
+  const std::vector<Point> points = made.mesh.points(made.control);
+  for (const Triangle& t : made.mesh.shared_topology()->triangles) {
+    double low = 0, high = 0;
+    for (const Index v : t) {
+      low = std::min(low, points[static_cast<std::size_t>(v)][0]);
+      high = std::max(high, points[static_cast<std::size_t>(v)][0]);
+    }
+    EXPECT_LT(std::min(-low, high), 1e-9);
   }
 }
 

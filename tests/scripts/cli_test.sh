@@ -139,6 +139,18 @@ json 'd["index_sum"] == 2'
 [ -s field.png ] && grep -q direction field.vtp || fail "field wrote no picture or no directions"
 succeed field $sphere --axis 0,0,1 --across --stroke "1,0,0 0.7,0,0.7" -q
 succeed grow field.ply "${quick[@]}" --model turing -o grown.ply
+# Creases: of smooth surfaces alone, and between 0 and 180 degrees.
+succeed grow builtin:cube?n=500 --crease 40 "${quick[@]}" -o creased.obj
+python3 - creased.obj <<'PYTHON' || fail "the corners of a creased cube are round"
+import sys
+points = [tuple(map(float, line.split()[1:4])) for line in open(sys.argv[1]) if line.startswith("v ")]
+most = max(max(map(abs, p)) for p in points)
+corners = {tuple(x > 0 for x in p) for p in points if all(abs(abs(x) - most) < 1e-6 for x in p)}
+sys.exit(len(corners) != 8)
+PYTHON
+expect 2 '--crease: creases are those of the smooth surface' grow builtin:cube?n=500 --crease 40 --method linear "${quick[@]}" -o a.ply
+expect 2 '--crease: creases are those of the smooth surface' grow builtin:tile?n=32 --crease 40 --steps 3 -o a.png
+expect 2 '--crease: creases are told by an angle' grow builtin:cube?n=500 --crease 200 "${quick[@]}" -o a.ply
 expect 2 '--axis 1,2: expected X,Y,Z' field $sphere --axis 1,2
 expect 2 'give one of --axis' field $sphere --axis 0,0,1 --curvature
 expect 2 '--across needs' field $sphere --across

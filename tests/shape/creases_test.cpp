@@ -79,7 +79,10 @@ TEST(Creases, WeightsSumToOneAndLimitsStayWhenRefined) {
     const LimitMasks a = loop_limit_masks(t), b = loop_limit_masks(levels.topology(1));
     const auto limit = combine(a.position, mesh.points), after = combine(b.position, fine);
     for (std::size_t v = 0; v < limit.size(); ++v) EXPECT_LT(length(difference(limit[v], after[v])), 1e-13) << v;
+    const std::vector<double> one(mesh.points.size(), 1.0);
+    for (const double x : combine(a.position, one)) EXPECT_NEAR(x, 1, 1e-13);
     for (auto member : {&LimitMasks::tangent1, &LimitMasks::tangent2}) {
+      for (const double x : combine(a.*member, one)) EXPECT_NEAR(x, 0, 1e-12);
       const auto coarse_tangent = combine(a.*member, mesh.points), fine_tangent = combine(b.*member, fine);
       for (std::size_t v = 0; v < limit.size(); ++v) {
         if (t.creases.corner[v]) continue;
