@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "look/solid_tessellation.h"
+#include "shape/refine.h"
 #include "shape/split_along.h"
 #include "shape/vectors.h"
 
@@ -15,6 +16,8 @@ namespace {
 constexpr double begin = 0.03, end = 0.97;
 /// ... where it changes by more than this between neighbours. What changes less shows no teeth.
 constexpr double least_jump = 0.08;
+/// Of the edges of the surface: what is shorter is not cut again, so that triangles keep some area.
+constexpr double shortest_cut = 0.15;
 
 std::vector<double> opacity_at(const CoatSamples& samples, const PaintLayer& layer, const Paint& paint) {
   std::vector<double> values = formula_values(*layer.opacity, samples, paint);
@@ -25,6 +28,7 @@ std::vector<double> opacity_at(const CoatSamples& samples, const PaintLayer& lay
 Tessellation cut_along(const Tessellation& t, const PaintLayer& layer, const Paint& paint) {
   const std::vector<double> opacity = opacity_at(t.samples, layer, paint);
   const auto [low, high] = std::ranges::minmax(opacity);
+  const double shortest = shortest_cut * prevailing_edge(t.triangles, t.samples.position);
   Tessellation result = t;
   // One line has its vertices before the layer, the other one within it, also where the opacity jumps.
   for (const auto& [share, sign] : {std::pair{begin, 1}, {end, -1}}) {
@@ -36,7 +40,8 @@ Tessellation cut_along(const Tessellation& t, const PaintLayer& layer, const Pai
       for (double& x : values) x = sign * (x - line);
       return values;
     };
-    const CutSurface cut = split_along(result.triangles, result.samples.position, level, least_jump * (high - low));
+    const CutSurface cut =
+        split_along(result.triangles, result.samples.position, level, {least_jump * (high - low), shortest});
     if (cut.vertex.size() > result.samples.size()) result = cut_tessellation(result, cut);
   }
   return result;

@@ -11,8 +11,8 @@ namespace pelage {
 
 namespace {
 
-/// Of an edge: so far from the line new vertices lie, and what they keep from its ends.
-constexpr double aside = 0.005, least_part = 1e-5;
+/// Of an edge: so far from the line new vertices lie, and what they keep from its ends: triangles need some area.
+constexpr double aside = 0.03, least_part = 0.04;
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -26,23 +26,24 @@ class Splitter {
     }
   }
 
-  CutSurface surface(const LevelFunction& level, double least_jump) {
+  CutSurface surface(const LevelFunction& level, const Jump& least) {
     values_ = level(result_.vertex);
-    find_crossings(level, least_jump);
+    find_crossings(level, least);
     for (const CutPlace& p : result_.vertex) places_.push_back(on_way(points_[at(p.from)], points_[at(p.to)], p.part));
     for (std::size_t t = 0; t < triangles_.size(); ++t) split(t);
     return std::move(result_);
   }
 
  private:
-  bool crossed(std::int32_t a, std::int32_t b, double least_jump) const {
+  bool crossed(std::int32_t a, std::int32_t b, const Jump& least) const {
     const double x = values_[at(a)], y = values_[at(b)];
-    return (x > 0) != (y > 0) && std::abs(x - y) > least_jump;
+    return (x > 0) != (y > 0) && std::abs(x - y) > least.jump &&
+           length(difference(points_[at(a)], points_[at(b)])) >= least.length;
   }
 
-  void find_crossings(const LevelFunction& level, double least_jump) {
+  void find_crossings(const LevelFunction& level, const Jump& least) {
     const auto is_crossed = [&](const Triangle& t) {
-      return crossed(t[0], t[1], least_jump) || crossed(t[1], t[2], least_jump) || crossed(t[2], t[0], least_jump);
+      return crossed(t[0], t[1], least) || crossed(t[1], t[2], least) || crossed(t[2], t[0], least);
     };
     if (std::ranges::none_of(triangles_, is_crossed)) return;
     const EdgeTable edges(triangles_, points_.size());
@@ -50,7 +51,7 @@ class Splitter {
     std::vector<double> at_from, at_to;
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const std::int32_t a = tail(triangles_, edges[e][0]), b = tip(triangles_, edges[e][0]);
-      if (!crossed(a, b, least_jump)) continue;
+      if (!crossed(a, b, least)) continue;
       for (const HalfEdge h : edges[e])
         new_on_[at(h)] = checked_count<std::int32_t>(points_.size() + open.size(), "vertices");
       open.push_back({a, b, 0});
@@ -127,8 +128,8 @@ class Splitter {
 }  // namespace
 
 CutSurface split_along(const std::vector<Triangle>& triangles, const std::vector<Point>& points,
-                       const LevelFunction& level, double least_jump) {
-  return Splitter(triangles, points).surface(level, least_jump);
+                       const LevelFunction& level, const Jump& least) {
+  return Splitter(triangles, points).surface(level, least);
 }
 
 }  // namespace pelage
