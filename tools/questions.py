@@ -107,7 +107,7 @@ def refresh(models):
                 result = grow(model, *SPHERE, "--step", str(step), "--refresh", str(k))
                 reference = reference or result
                 row += f" {share(result, reference)} | {number(result, 'seconds')} |"
-            print(f"| {model} | {step:.2g} | {number(reference, 'steps')} |{row}", flush=True)
+            print(f"| {model} | {step:.2g} | {reference.get('steps', '-')} |{row}", flush=True)
 
 
 def moving(models):
