@@ -107,7 +107,7 @@ const StepperKind& require_able(const StepperKind& stepper, const Method& method
                                 const Stage& stage, const Location& where) {
   const std::string what = what_stepper_cannot(stepper, method, model, stage);
   const std::string other = method.symmetric
-                                ? "take \"" + std::string(sbdf2.name) + "\""
+                                ? "take \"" + std::string((stage.refresh ? semi_implicit : sbdf2).name) + "\""
                                 : "take another stepper, or the method \"" +
                                       std::string((method.fits(Cells{}) ? cell_method : grid_method).name) + "\"";
   if (!what.empty())

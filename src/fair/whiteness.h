@@ -17,8 +17,7 @@ double correlation_of_ways(const Topology& topology, const std::vector<char>& fi
                            const std::vector<Point>& points);
 
 /// The same after so many steps of the guided filter where there is noise alone: a fit to spheres, cubes and
-/// mechanical parts with noise from 0.1 to 0.7 edges, within 0.03, and 0.01 on irregular ones; at 0 where the fit
-/// starts.
+/// mechanical parts with noise from 0.1 to 0.7 edges, within 0.03; at 0 where the fit starts.
 double correlation_of_noise(int steps);
 
 /// How much that grows in the last of so many steps.

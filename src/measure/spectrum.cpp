@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <numbers>
 
 #include "base/dense.h"
 #include "linalg/conjugate_gradient.h"
+#include "linalg/spd_factors.h"
 
 namespace pelage {
 
@@ -24,12 +27,21 @@ Vector centred(const SparseMatrix& mass, const std::vector<double>& values) {
   return u;
 }
 
+/// x -> A^-1 x.
+std::function<Vector(const Vector&)> inverse(const SparseMatrix& a) {
+  constexpr std::size_t most_of_surfaces = 10;  // entries in a row; matrices of volumes have more and would fill up
+  if (a.pattern->nonzeros() <= most_of_surfaces * static_cast<std::size_t>(a.rows()))
+    return [factors = std::make_shared<const SpdFactors>(a)](const Vector& x) { return factors->solve(x); };
+  constexpr ConjugateGradientOptions close{.tolerance = 1e-8};  // far nearer than nodes lie to each other
+  return [&a, close](const Vector& x) { return solve_spd(a, x, close); };
+}
+
 /// The tridiagonal matrix of Lanczos's iteration with (M + s^2 K)^-1 M from u, in the inner product of M. All vectors
 /// are kept orthogonal to each other.
 Eigen::MatrixXd lanczos(const SparseMatrix& mass, const SparseMatrix& step, const Vector& u) {
   constexpr double exhausted = 1e-8;
-  constexpr ConjugateGradientOptions close{.tolerance = 1e-8};  // far nearer than nodes lie to each other
-  std::vector<Vector> basis, images;                            // q and M q
+  const auto solve = inverse(step);
+  std::vector<Vector> basis, images;  // q and M q
   Eigen::MatrixXd t = Eigen::MatrixXd::Zero(most_nodes, most_nodes);
   Vector q = u;
   int n = 0;
@@ -44,7 +56,7 @@ Eigen::MatrixXd lanczos(const SparseMatrix& mass, const SparseMatrix& step, cons
     }
     basis.push_back(q / length);
     images.push_back(image / length);
-    q = solve_spd(step, images.back(), close);
+    q = solve(images.back());
     t(n, n) = dot(images.back(), q);
   }
   return t.topLeftCorner(n, n);

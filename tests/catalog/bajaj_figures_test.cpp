@@ -1,4 +1,4 @@
-// Figs 2 to 5 of Bajaj, Zhang, Xu 2008 with their literal parameters and lengths; docs/questions.md has their list.
+// Figs 2 to 5 of Bajaj, Zhang, Xu 2008 with their literal parameters and lengths; docs/figures.md has their list.
 
 #include <gtest/gtest.h>
 
