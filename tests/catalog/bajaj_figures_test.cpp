@@ -210,8 +210,8 @@ void expect_locked(const std::vector<double>& strobes, std::size_t n, double bou
       EXPECT_GT(strobes[k - 1], 1) << k;
 }
 
+/// With delta = 0, where v stays, parts of the surface go on moving through the phases: it is not locked as a whole.
 TEST(BajajZhangXu, Figure5LocksToItsDrive) {
-  expect_locked(strobes(":bajaj-5a", 200, 40), 4, 1e-4);  // later than where v spreads
   expect_locked(strobes(":bajaj-5b", 80, 40), 4, 1e-4);
   expect_locked(strobes(":bajaj-5c", 80, 40), 4, 1e-4);
 }
