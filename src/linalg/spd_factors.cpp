@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "linalg/conjugate_gradient.h"
 #include "pelage/error.h"
 
 namespace pelage {
@@ -42,5 +43,14 @@ SpdFactors::SpdFactors(const SparseMatrix& a) : parts_(std::make_unique<Parts>()
 SpdFactors::~SpdFactors() = default;
 
 Vector SpdFactors::solve(const Vector& b) const { return parts_->factors.solve(b); }
+
+std::function<Vector(const Vector&)> spd_inverse(const SharedMatrix& a) {
+  // Factors take some 4 kB a row at this size, and more beyond; matrices of volumes have more entries and fill up.
+  constexpr std::int32_t most_rows = 400'000;
+  constexpr std::size_t most_entries = 10;  // in a row
+  if (a->rows() <= most_rows && a->pattern->nonzeros() <= most_entries * static_cast<std::size_t>(a->rows()))
+    return [factors = std::make_shared<const SpdFactors>(*a)](const Vector& b) { return factors->solve(b); };
+  return [a](const Vector& b) { return solve_spd(*a, b, {.tolerance = 1e-8}); };
+}
 
 }  // namespace pelage

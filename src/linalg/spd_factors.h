@@ -2,6 +2,7 @@
 // Symmetric positive definite matrices of surfaces, factored: many solves with one, and ones that conjugate gradients
 // are slow with, because the mesh has slivers.
 
+#include <functional>
 #include <memory>
 
 #include "linalg/sparse.h"
@@ -24,5 +25,9 @@ class SpdFactors {
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
+
+/// x -> A^-1 x, to 1e-8: by factors where these have room, which slivers do not trouble, else by conjugate gradients.
+/// Error(Fault::numerics) where neither does it.
+std::function<Vector(const Vector&)> spd_inverse(const SharedMatrix& a);
 
 }  // namespace pelage

@@ -52,13 +52,13 @@ std::vector<Eigen::Matrix3d> slope_tensors(const Space& space, const TriangleMes
         for (Eigen::Index j = i; j < 3; ++j, ++k) load[static_cast<std::size_t>(k)][v] += tensor(i, j);
   }
   const SparseMatrix mass = *space.sampled(SampleRule::quadrature).mass;
-  SparseMatrix step = mass;
-  combine(1, mass, sigma * sigma / 2, *space.stiffness(), step);
-  const SpdFactors factors(step);
+  const auto step = std::make_shared<SparseMatrix>(mass);
+  combine(1, mass, sigma * sigma / 2, *space.stiffness(), *step);
+  const auto solve = spd_inverse(step);
   std::vector<Eigen::Matrix3d> tensors(values.size());
   for (Eigen::Index i = 0, k = 0; i < 3; ++i)
     for (Eigen::Index j = i; j < 3; ++j, ++k) {
-      const Vector x = factors.solve(load[static_cast<std::size_t>(k)]);
+      const Vector x = solve(load[static_cast<std::size_t>(k)]);
       for (std::size_t v = 0; v < tensors.size(); ++v)
         tensors[v](i, j) = tensors[v](j, i) = x[static_cast<Eigen::Index>(v)];
     }

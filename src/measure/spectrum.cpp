@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <numbers>
 
 #include "base/dense.h"
-#include "linalg/conjugate_gradient.h"
 #include "linalg/spd_factors.h"
 
 namespace pelage {
@@ -27,21 +25,12 @@ Vector centred(const SparseMatrix& mass, const std::vector<double>& values) {
   return u;
 }
 
-/// x -> A^-1 x.
-std::function<Vector(const Vector&)> inverse(const SparseMatrix& a) {
-  constexpr std::size_t most_of_surfaces = 10;  // entries in a row; matrices of volumes have more and would fill up
-  if (a.pattern->nonzeros() <= most_of_surfaces * static_cast<std::size_t>(a.rows()))
-    return [factors = std::make_shared<const SpdFactors>(a)](const Vector& x) { return factors->solve(x); };
-  constexpr ConjugateGradientOptions close{.tolerance = 1e-8};  // far nearer than nodes lie to each other
-  return [&a, close](const Vector& x) { return solve_spd(a, x, close); };
-}
-
 /// The tridiagonal matrix of Lanczos's iteration with (M + s^2 K)^-1 M from u, in the inner product of M. All vectors
 /// are kept orthogonal to each other.
-Eigen::MatrixXd lanczos(const SparseMatrix& mass, const SparseMatrix& step, const Vector& u) {
+Eigen::MatrixXd lanczos(const SparseMatrix& mass, const SharedMatrix& step, const Vector& u) {
   constexpr double exhausted = 1e-8;
-  const auto solve = inverse(step);
-  std::vector<Vector> basis, images;  // q and M q
+  const auto solve = spd_inverse(step);  // far nearer than nodes lie to each other
+  std::vector<Vector> basis, images;     // q and M q
   Eigen::MatrixXd t = Eigen::MatrixXd::Zero(most_nodes, most_nodes);
   Vector q = u;
   int n = 0;
@@ -104,8 +93,8 @@ Spectrum spectrum(const Space& space, const std::vector<double>& values, double 
   constexpr double rounding = 1e-12;
   const Vector given = Vector::Map(values.data(), u.size());
   if (!(near > 0) || !(norm(u) > rounding * norm(given))) return {};
-  SparseMatrix step = mass;
-  combine(1, mass, 1 / (near * near), *space.stiffness(), step);
+  const auto step = std::make_shared<SparseMatrix>(mass);
+  combine(1, mass, 1 / (near * near), *space.stiffness(), *step);
   const Modes modes = symmetric_modes(lanczos(mass, step, u));
   Spectrum s;
   for (Eigen::Index i = modes.values.size(); i-- > 0;) {  // the operator falls with k

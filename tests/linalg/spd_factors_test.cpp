@@ -37,6 +37,7 @@ TEST(SpdFactors, AgreeWithConjugateGradients) {
   const SparseMatrix a = line(300, 0.1, 3);
   const Vector b = Vector::LinSpaced(300, -1, 2);
   EXPECT_LT((SpdFactors(a).solve(b) - solve_spd(a, b)).norm(), 1e-8 * b.norm());
+  EXPECT_EQ(spd_inverse(std::make_shared<const SparseMatrix>(a))(b), SpdFactors(a).solve(b));
 }
 
 TEST(SpdFactors, RowsOfZerosAreLeftAlone) {
