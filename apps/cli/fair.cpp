@@ -145,8 +145,8 @@ void add_method_options(CLI::App* app, FairCommand& command) {
                       "Smooth this vertex attribute, for example color, and leave the vertices where they are")
           ->type_name("NAME");
   app->add_option("--method", command.method,
-                  "guided (default), or for comparison: paper (anisotropic diffusion on the limit surface, Bajaj, Xu, "
-                  "Zhang 2008), isotropic, taubin. Of attributes: anisotropic (keeps edges; default), isotropic")
+                  "guided (default), or for comparison: paper (anisotropic diffusion on the limit surface, Bajaj, "
+                  "Zhang, Xu 2008), isotropic, taubin. Of attributes: anisotropic (keeps edges; default), isotropic")
       ->type_name("NAME");
   app->add_option("--noise", options.noise,
                   "Standard deviation of the noise in mean edges, or in the attribute's unit (default: estimated)")

@@ -132,7 +132,7 @@ TEST(MovingSurface, MovingAloneKeepsEveryAmount) {
                           "still.toml"));
   Growth run(std::move(program));
   const double before = run.amounts()[0];
-  run.advance(20);
+  run.advance(40);
   EXPECT_FALSE(run.world().surface()->moving());
   EXPECT_NEAR(run.amounts()[0] / before, 1, 1e-6);
 }
