@@ -182,8 +182,7 @@ Command add_fair(CLI::App& parent) {
       "fair",
       "Take the noise off a mesh and keep its edges\n"
       "Estimates the noise, filters the normals of the triangles and lets the vertices follow, until shape begins to "
-      "go "
-      "along with the noise. Triangles, attributes and volume stay; boundaries do not move. With --attribute the "
+      "go along with the noise. Triangles, attributes and volume stay; boundaries do not move. With --attribute the "
       "same "
       "for a function on the surface. Says what was chosen; options override.");
   app->add_option("SHAPE", command->shape, "An OBJ, PLY, STL, OFF, glTF or GLB file, or builtin:NAME?n=VERTICES")

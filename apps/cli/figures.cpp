@@ -12,10 +12,8 @@
 #include "figures_page.h"
 #include "interrupt.h"
 #include "io/atomic_file.h"
-#include "io/file_bytes.h"
 #include "io/journal.h"
 #include "io/output_set.h"
-#include "io/sha256.h"
 #include "measured_coat.h"
 #include "parts.h"
 #include "progress_bar.h"
@@ -31,7 +29,7 @@ namespace {
 struct FiguresOptions {
   std::string folder;
   std::vector<std::string> figures;
-  bool list = false, json = false, quiet = false;
+  bool json = false, quiet = false;
 };
 
 /// A panel to be made, and where what came of it is noted.
@@ -73,7 +71,7 @@ std::vector<PanelJob> jobs_for(std::vector<FiguresOfPaper>& papers) {
   return jobs;
 }
 
-/// "wavelength 0.0817, 361 spots, 43 % of the area above, stripes .12 of 1".
+/// What pelage measure finds, in one line.
 std::string numbers_of(const FigurePanel& panel) {
   const ShapeFile file = read_shape(*panel.coat, {});
   const PatternMeasures m = measure_coat(file, field_of(file.mesh, *panel.field, *panel.coat), {});
@@ -84,24 +82,17 @@ std::string numbers_of(const FigurePanel& panel) {
          (ground_of(file) == Ground::surface ? ", stripes " + brief(m.coherence) + " of 1" : "");
 }
 
-/// What tells a picture and its numbers from those of other commands.
-bool made_before(const PanelJob& job, const Journal& journal) {
-  const auto part = journal.find(job.panel->picture);
-  std::error_code ignored;
-  if (!part || !fs::is_regular_file(job.panel->picture, ignored)) return false;
-  const std::string hash = sha256(read_raw_file(job.panel->picture));
-  if (!part->starts_with(hash)) return false;
-  job.made->numbers = part->substr(hash.size());
-  return true;
-}
-
 /// In the folder of the page.
 void make_panel(const PanelJob& job, Journal& journal) {
-  if (made_before(job, journal)) return;
+  const std::string& picture = job.panel->picture;
+  if (const auto numbers = kept_picture(journal, picture, picture)) {
+    job.made->numbers = *numbers;
+    return;
+  }
   try {
     for (const Given<std::string>& command : job.panel->commands) run_quietly(words_of(command.value));
     if (job.panel->coat) job.made->numbers = numbers_of(*job.panel);
-    journal.add(job.panel->picture, sha256(read_raw_file(job.panel->picture)) + job.made->numbers);
+    keep_picture(journal, picture, picture, job.made->numbers);
   } catch (const Error& error) {
     if (error.fault() == Fault::output || error.fault() == Fault::cancelled) throw;
     job.made->failure = one_line(error.what());
@@ -128,9 +119,8 @@ void check_commands(const std::vector<Paper>& papers) {
 void make_panels(const std::vector<PanelJob>& jobs, Journal& journal, const Progress& progress) {
   for (std::size_t j = 0; j < jobs.size(); ++j) {
     const double done = static_cast<double>(j) / static_cast<double>(jobs.size());
-    if (!progress("figure " + jobs[j].figure, done))
-      throw Error(Fault::cancelled, "interrupted" + where_to_go_on(journal, jobs.size(), "pictures"));
     try {
+      if (!progress("figure " + jobs[j].figure, done)) throw Error(Fault::cancelled, "");
       make_panel(jobs[j], journal);
     } catch (const Error& error) {
       if (error.fault() != Fault::cancelled) throw;

@@ -17,9 +17,7 @@
 #include "input_unit.h"
 #include "interrupt.h"
 #include "io/atomic_file.h"
-#include "io/file_bytes.h"
 #include "io/output_set.h"
-#include "io/sha256.h"
 #include "look/caption.h"
 #include "parts.h"
 #include "pelage/io.h"
@@ -79,30 +77,22 @@ std::vector<const Recipe*> recipes_of(const std::vector<GallerySubject>& subject
   return recipes;
 }
 
-/// Whether a command that was cut off has made the picture, and it is as that has left it.
-bool made_before(const Job& job, const std::string& path, const Journal& journal) {
-  const auto part = journal.find(job.picture->file);
-  std::error_code ignored;
-  if (!part || !std::filesystem::is_regular_file(path, ignored)) return false;
-  const std::string hash = sha256(read_raw_file(path));
-  if (!part->starts_with(hash)) return false;
-  job.picture->uniform = part->substr(hash.size());
-  return true;
-}
-
 void do_job(const Job& job, const GalleryOptions& options, Journal& journal,
             const std::function<bool(double)>& report) {
   const std::string path = (std::filesystem::path(options.folder) / job.picture->file).string();
   try {
-    job.picture->made = made_before(job, path, journal);
-    if (job.picture->made) return;
+    if (const auto uniform = kept_picture(journal, job.picture->file, path)) {
+      job.picture->made = true;
+      job.picture->uniform = *uniform;
+      return;
+    }
     const TilePicture tile =
         tile_picture(job.subject->recipe, job.shape->file, options.view, options.picture_size, report);
     if (tile.image.rgb.empty()) return;
     job.picture->uniform = tile.uniform;
     write_png(with_caption(tile.image, short_name(*job.subject) + ", " + job.shape->name, job.subject->title), path);
     publish_outputs();
-    journal.add(job.picture->file, sha256(read_raw_file(path)) + tile.uniform);
+    keep_picture(journal, job.picture->file, path, tile.uniform);
     job.picture->made = true;
   } catch (const Error& error) {
     if (error.fault() == Fault::output) throw;
