@@ -185,6 +185,7 @@ class IsotropicMesher {
 
   void split_above(double factor);
   void cut(Index h);
+  bool fans_out(Index h, const Vec& middle) const;
   Spot middle(Index h) const;
   bool on_rim(const MeshPlace& place) const;
   Spot on_surface(const Vec& p, Index from_face) const;
@@ -380,6 +381,17 @@ Spot IsotropicMesher::middle(Index h) const {
   return result;
 }
 
+/// Would cutting an edge leave one that is as long? In a triangle without height beside an edge that cannot be cut,
+/// each cut would call for the next one.
+bool IsotropicMesher::fans_out(Index h, const Vec& middle) const {
+  const Index g = mesh_.twin(h);
+  const double most = 0.98 * edge_square(h);
+  const auto far = [&](Index side) {
+    return (spot(mesh_.origin(previous_halfedge(side))).point - middle).squaredNorm() > most;
+  };
+  return far(h) || (g >= 0 && far(g));
+}
+
 void IsotropicMesher::cut(Index h) {
   const Spot fresh = middle(h);
   // An edge through the inside of a thin part can have its middle nearest to one of its ends.
@@ -387,6 +399,7 @@ void IsotropicMesher::cut(Index h) {
   if (mesh_.twin(h) >= 0 && fresh.hold <= Hold::crease && on_rim(fresh.place)) return;
   if (leaves_region(h, fresh)) return;
   if (std::max((fresh.point - a).squaredNorm(), (fresh.point - b).squaredNorm()) > 0.8 * (a - b).squaredNorm()) return;
+  if (!lines_.empty() && fans_out(h, fresh.point)) return;
   mesh_.split(h);
   spots_.push_back(fresh);
   stirred_.push_back(true);

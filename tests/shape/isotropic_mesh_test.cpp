@@ -2,8 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <set>
+
 #include "base/parallel.h"
 #include "pelage/error.h"
+#include "shape/crease_lines.h"
+#include "shape/creases.h"
 #include "shape/generators.h"
 #include "support/mesh_facts.h"
 #include "verify/triangulations.h"
@@ -242,6 +248,74 @@ TEST(IsotropicMesh, RefusesLengthsThatAreNotPositive) {
   const TriangleMesh base = unit_sphere(SphereTriangulation::uniform, 200);
   for (double edge : {0.0, -1.0, std::nan(""), 1e-9})
     EXPECT_THROW(isotropic_mesh(base.triangles, base.points, edge), Error);
+}
+
+/// A plate with a raised block whose corner is near the plate's own edge, turned so that nothing lies on planes to the
+/// bit; between the creases there are needles alone.
+TriangleMesh plate_with_a_block() {
+  TriangleMesh mesh;
+  const auto level = [&](double z, const std::array<std::array<double, 2>, 4>& corners) {
+    for (const auto& [x, y] : corners) {
+      const double u = std::cos(0.3) * x - std::sin(0.3) * y, v = std::sin(0.3) * x + std::cos(0.3) * y;
+      const Point p = {u, std::cos(0.3) * v - std::sin(0.3) * z, std::sin(0.3) * v + std::cos(0.3) * z};
+      mesh.points.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+    }
+  };
+  const auto quad = [&](Index a, Index b, Index c, Index d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  level(0, {{{0, 0}, {5, 0}, {5, 2.5}, {0, 2.5}}});
+  level(0.5, {{{0, 0}, {5, 0}, {5, 2.5}, {0, 2.5}}});
+  level(0.5, {{{0.04, 0.04}, {4, 0.7}, {4.2, 2}, {0.6, 2.2}}});
+  level(0.7, {{{0.04, 0.04}, {4, 0.7}, {4.2, 2}, {0.6, 2.2}}});
+  quad(3, 2, 1, 0);
+  for (Index below = 0; below < 12; below += 4)
+    for (Index i = 0; i < 4; ++i) {
+      const Index j = (i + 1) % 4;
+      quad(below + i, below + j, below + 4 + j, below + 4 + i);
+    }
+  quad(12, 13, 14, 15);
+  return mesh;
+}
+
+/// How many triangles have corners in several of the regions between creases.
+int triangles_over_creases(const IsotropicMesh& made, const Topology& base) {
+  const std::vector<Index> region = smooth_regions(base);
+  VertexRing around;
+  int count = 0;
+  for (const Triangle& t : made.topology.triangles) {
+    std::set<Index> regions;
+    for (const Index v : t) {
+      vertex_ring(made.topology, v, around);
+      if (around.sharp.empty()) regions.insert(region[made.places[v].face]);
+    }
+    count += regions.size() > 1;
+  }
+  return count;
+}
+
+/// Edges beside creases are cut on their own side, and those that cannot be are no cause to cut others for ever.
+TEST(IsotropicMesh, IsEvenBetweenCloseCreases) {
+  const TriangleMesh plate = plate_with_a_block();
+  Topology t = make_topology(plate.points.size(), plate.triangles);
+  t.creases = creases_above(40, t, plate.points);
+  Hierarchy levels(t, loop_refine);
+  std::vector<Point> points = plate.points;
+  for (int level = 0; level < 6; ++level) {
+    levels.refine();
+    points = levels.refined(std::move(points), level, level + 1);
+  }
+  const std::vector<Point> limit = loop_limits(levels.topology(6), points);
+  for (const double edge : {0.08, 0.04}) {
+    SCOPED_TRACE(edge);
+    const IsotropicMesh made = isotropic_mesh(levels, limit, std::vector<double>(limit.size(), edge));
+    const testing::MeshFacts facts = testing::mesh_facts(mesh_of(made));
+    const double wanted = 2 / std::sqrt(3.0) * facts.area / (edge * edge);
+    EXPECT_NEAR(static_cast<double>(made.points.size()) / wanted, 1, 0.06);
+    EXPECT_LT(facts.longest_edge, 2 * edge);
+    EXPECT_EQ(triangles_over_creases(made, levels.topology(6)), 0);
+  }
 }
 
 }  // namespace
