@@ -1,5 +1,7 @@
 // pelage figures: the figures of the papers, made again by the commands that stand in figures/.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -17,6 +19,7 @@
 #include "measured_coat.h"
 #include "parts.h"
 #include "progress_bar.h"
+#include "run/run.h"
 #include "run_command.h"
 #include "text.h"
 
@@ -71,13 +74,18 @@ std::vector<PanelJob> jobs_for(std::vector<FiguresOfPaper>& papers) {
   return jobs;
 }
 
+std::string counted(std::size_t count, const std::string& one) {
+  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
+
 /// What pelage measure finds, in one line.
 std::string numbers_of(const FigurePanel& panel) {
   const ShapeFile file = read_shape(*panel.coat, {});
   const PatternMeasures m = measure_coat(file, field_of(file.mesh, *panel.field, *panel.coat), {});
-  if (!(m.wavelength > 0)) return "no pattern, " + *panel.field + " is " + brief(m.mean) + " everywhere";
+  if (m.maximum - m.minimum < uniform_contrast * std::max(std::abs(m.minimum), std::abs(m.maximum)))
+    return "no pattern, " + *panel.field + " is " + brief(m.mean) + " everywhere";
   return *panel.field + " from " + brief(m.minimum) + " to " + brief(m.maximum) + ", wavelength " +
-         brief(wavelength_of(m.spectrum.peak())) + ", " + std::to_string(m.above.parts) + " parts above and " +
+         brief(wavelength_of(m.spectrum.peak())) + ", " + counted(m.above.parts, "part") + " above and " +
          std::to_string(m.below.parts) + " below the middle, " + brief(100 * m.above.share) + " % of the area above" +
          (ground_of(file) == Ground::surface ? ", stripes " + brief(m.coherence) + " of 1" : "");
 }
