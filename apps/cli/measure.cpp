@@ -144,7 +144,7 @@ void run_measure(const MeasureOptions& options) {
   const ShapeFile file = read_shape(options.shape, {});
   const Ground ground = ground_of(file);
   if (!options.plot.empty()) check_picture_path(options.plot);
-  const Attribute& field = field_of(file.mesh, options.field, options.shape);
+  const Attribute field = field_of(file.mesh, options.field, options.shape);
   const PatternMeasures measures = measure_coat(file, field, options.level);
   if (!options.plot.empty()) {
     if (measures.spectrum.empty())
@@ -152,7 +152,7 @@ void run_measure(const MeasureOptions& options) {
     write_png(draw(spectrum_plot(measures.spectrum, object_name(file, options.shape), field.name)), options.plot);
   }
   if (options.json) return print_json(to_json(measures, options.shape, field.name, ground));
-  print(measures, field.name, fields_of(file.mesh).size() - 1, ground);
+  print(measures, field.name, field_names(file.mesh).size() - 1, ground);
 }
 
 }  // namespace

@@ -1,11 +1,14 @@
 #include "measured_coat.h"
 
+#include <algorithm>
 #include <memory>
 #include <numbers>
 
 #include "base/suggest.h"
+#include "direction/direction_field.h"
 #include "discretise/cell_space.h"
 #include "measure/node_pattern.h"
+#include "react/formula.h"
 #include "shape/cells.h"
 
 namespace pelage {
@@ -35,26 +38,55 @@ PatternMeasures measure_coat(const ShapeFile& file, const Attribute& field, cons
   return measure_pattern(file.mesh, field.values, level);
 }
 
-std::vector<const Attribute*> fields_of(const TriangleMesh& mesh) {
-  std::vector<const Attribute*> fields;
-  for (const Attribute& a : mesh.attributes)
-    if (a.domain == Domain::vertex && a.components == 1) fields.push_back(&a);
+namespace {
+
+/// Not of colours, places on images and unit vectors.
+bool has_components(const Attribute& a) {
+  return a.components > 1 && !is_color(a) && a.name != "uv" && a.name != "normal" && a.name != "tangent" &&
+         a.name != direction_attribute;
+}
+
+/// What can be measured: an attribute, and which of its components.
+struct Field {
+  std::string name;
+  const Attribute* attribute;
+  int component;
+};
+
+std::vector<Field> fields_of(const TriangleMesh& mesh) {
+  std::vector<Field> fields;
+  for (const Attribute& a : mesh.attributes) {
+    if (a.domain != Domain::vertex) continue;
+    if (a.components == 1) fields.push_back({a.name, &a, 0});
+    for (int k = 0; has_components(a) && k < a.components; ++k)
+      fields.push_back({component_name(a.name, k + 1), &a, k});
+  }
   return fields;
 }
 
-const Attribute& field_of(const TriangleMesh& mesh, const std::string& name, const std::string& path) {
-  const std::vector<const Attribute*> fields = fields_of(mesh);
+}  // namespace
+
+std::vector<std::string> field_names(const TriangleMesh& mesh) {
+  std::vector<std::string> names;
+  for (const Field& field : fields_of(mesh)) names.push_back(field.name);
+  return names;
+}
+
+Attribute field_of(const TriangleMesh& mesh, const std::string& name, const std::string& path) {
+  const std::vector<Field> fields = fields_of(mesh);
   if (fields.empty())
     throw Error(Fault::input,
                 "there is no number at the vertices to measure; a coat in .vtp, .ply, .vtu or .vti has its species",
                 {path});
-  if (name.empty()) return *fields.front();
-  std::vector<std::string> names;
-  for (const Attribute* field : fields) {
-    if (field->name == name) return *field;
-    names.push_back(field->name);
-  }
-  throw Error(Fault::usage, "--field: " + unknown_name("field", name, names));
+  const auto named = std::ranges::find(fields, name, &Field::name);
+  if (!name.empty() && named == fields.end())
+    throw Error(Fault::usage, "--field: " + unknown_name("field", name, field_names(mesh)));
+  const Field& field = name.empty() ? fields.front() : *named;
+  Attribute result{field.name, 1, Domain::vertex, {}};
+  for (std::size_t i = static_cast<std::size_t>(field.component); i < field.attribute->values.size();
+       i += static_cast<std::size_t>(field.attribute->components))
+    result.values.push_back(field.attribute->values[i]);
+  return result;
 }
 
 double wavelength_of(double wave_number) { return 2 * std::numbers::pi / wave_number; }

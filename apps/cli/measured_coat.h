@@ -14,10 +14,10 @@ namespace pelage {
 enum class Ground { surface, cloud, volume };
 Ground ground_of(const ShapeFile& file);
 
-/// What can be measured: a number at every vertex.
-std::vector<const Attribute*> fields_of(const TriangleMesh& mesh);
+/// What can be measured: numbers at every vertex, "u" or "u_2" of a vector.
+std::vector<std::string> field_names(const TriangleMesh& mesh);
 /// That of a name, or the first without one. Error where there is none; `path`: of the file.
-const Attribute& field_of(const TriangleMesh& mesh, const std::string& name, const std::string& path);
+Attribute field_of(const TriangleMesh& mesh, const std::string& name, const std::string& path);
 
 /// `level`: where parts end, see measure_pattern().
 PatternMeasures measure_coat(const ShapeFile& file, const Attribute& field, const std::optional<double>& level);

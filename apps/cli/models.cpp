@@ -64,21 +64,37 @@ std::string in_brackets(const Formula& f) {
 /// The formula as a further term of a sum.
 std::string plus(const Formula& f) { return f.text.starts_with('-') ? " - " + f.text.substr(1) : " + " + f.text; }
 
+std::string entries(const TensorSource& tensor) {
+  std::string text;
+  for (const Formula& f : tensor) text += (text.empty() ? "" : "; ") + f.text;
+  return text;
+}
+
+/// The component for which the formulas of a vector are read; 0: each component has its own, or it is no vector.
+int component_of(const SpeciesSource& s) {
+  for (const auto* f : {&s.rate, &s.equals, &s.c2, &s.c3})
+    if (*f) return (*f)->component;
+  return 0;
+}
+
 /// "du/dt = div(Du grad u) + R" with the formulas of the file.
 std::string equation(const SpeciesSource& s) {
-  if (s.equals) return s.name + " = " + s.equals->text;
-  std::string text = "d" + s.name + "/dt = ";
-  if (!s.diffusion && !s.anisotropy && !s.c0 && !s.c1) return text + s.rate->text;
-  if (s.anisotropy)
+  const std::string& name = component_of(s) > 0 ? s.vector : s.name;
+  if (s.equals) return name + " = " + s.equals->text;
+  std::string text = "d" + name + "/dt = ";
+  if (!s.diffusion && !s.anisotropy && !s.tensor && !s.c0 && !s.c1) return text + s.rate->text;
+  if (s.tensor)
+    text += (s.c0 ? in_brackets(*s.c0) + " " : "") + "div(T[" + entries(*s.tensor) + "] grad " + name + ")";
+  else if (s.anisotropy)
     text += "div(A[" + s.anisotropy->theta.text + "; " + s.anisotropy->a1.text + "; " + s.anisotropy->a2.text +
-            "] grad " + s.name + ")";
+            "] grad " + name + ")";
   else if (s.diffusion)
-    text += "div(" + in_brackets(*s.diffusion) + " grad " + s.name + ")";
+    text += "div(" + in_brackets(*s.diffusion) + " grad " + name + ")";
   else
-    text += (s.c0 ? in_brackets(*s.c0) + " " : "") + "div(" + (s.c1 ? in_brackets(*s.c1) + " " : "") + "grad " +
-            s.name + ")";
+    text +=
+        (s.c0 ? in_brackets(*s.c0) + " " : "") + "div(" + (s.c1 ? in_brackets(*s.c1) + " " : "") + "grad " + name + ")";
   if (s.rate) text += plus(*s.rate);
-  if (s.c2) text += " + " + in_brackets(*s.c2) + " " + s.name;
+  if (s.c2) text += " + " + in_brackets(*s.c2) + " " + name;
   if (s.c3) text += plus(*s.c3);
   return text;
 }
@@ -87,12 +103,14 @@ void print_equations(const ModelSource& source) {
   std::puts("\nEquations");
   std::vector<std::vector<std::string>> starts;
   for (const SpeciesSource& s : source.species) {
-    std::printf("  %s\n", equation(s).c_str());
+    if (component_of(s) <= 1) std::printf("  %s\n", equation(s).c_str());
     std::string bounds;
     if (s.lower) bounds += ", at least " + s.lower->text;
     if (s.upper) bounds += ", at most " + s.upper->text;
-    if (s.equals) continue;
-    starts.push_back({s.name + " = " + (s.initial ? s.initial->text : "0") + " at the start" + bounds});
+    const int component = s.initial ? s.initial->component : 0;
+    if (s.equals || component > 1) continue;
+    starts.push_back(
+        {(component > 0 ? s.vector : s.name) + " = " + (s.initial ? s.initial->text : "0") + " at the start" + bounds});
   }
   for (const DefinitionSource& d : source.definitions)
     std::printf("  with %s = %s\n", d.name.c_str(), d.formula.text.c_str());
@@ -173,10 +191,19 @@ Json anisotropy(const std::optional<AnisotropySource>& a) {
   return a ? Json{{"theta", a->theta.text}, {"a1", a->a1.text}, {"a2", a->a2.text}} : Json(nullptr);
 }
 
+Json tensor(const std::optional<TensorSource>& t) {
+  if (!t) return nullptr;
+  Json entries;
+  for (std::size_t k = 0; k < t->size(); ++k) entries[tensor_entries[k]] = (*t)[k].text;
+  return entries;
+}
+
 Json to_json(const SpeciesSource& s) {
   return {{"name", s.name},
+          {"vector", s.vector.empty() ? Json(nullptr) : Json(s.vector)},
           {"diffusion", formula(s.diffusion)},
           {"anisotropy", anisotropy(s.anisotropy)},
+          {"tensor", tensor(s.tensor)},
           {"rate", formula(s.rate)},
           {"equals", formula(s.equals)},
           {"C0", formula(s.c0)},

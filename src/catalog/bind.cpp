@@ -398,7 +398,8 @@ Program bind_cells(const Plan& plan, TriangleMesh mesh, std::vector<Texture> ima
   const CellMaker maker(shape);
   Cells cells = maker.make(number_of_cells(plan, maker, shape, images));
   constexpr double stretch = 2;  // as the ratio of rates up to which other methods are good
-  if (std::ranges::any_of(plan.stages, [](const PlannedStage& s) { return s.model.anisotropic(); }))
+  if (std::ranges::any_of(plan.stages,
+                          [](const PlannedStage& s) { return s.model.anisotropic() || s.model.has_tensor(); }))
     cells.stretch = stretch;
   TriangleMesh points = mesh_of(cells);
   Program p =

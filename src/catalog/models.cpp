@@ -6,6 +6,7 @@
 #include "base/suggest.h"
 #include "catalog/embedded.h"
 #include "pelage/grow.h"
+#include "react/formula.h"
 #include "recipe/document.h"
 #include "recipe/read_recipe.h"
 
@@ -34,20 +35,71 @@ std::optional<AnisotropySource> anisotropy(const Value& species) {
                           formula(table->at("a2"))};
 }
 
-SpeciesSource species(const std::string& name, const Value& table) {
-  return {.name = name,
+/// What lies off the diagonal may be left out.
+std::optional<TensorSource> tensor(const Value& species) {
+  const Value* table = species.find("tensor");
+  if (!table) return std::nullopt;
+  TensorSource entries;
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    const std::string key = tensor_entries[k];
+    const Value* value = key[0] == key[1] ? &table->at(key) : table->find(key);
+    entries[k] = value ? formula(*value) : Formula{"0", table->where()};
+  }
+  return entries;
+}
+
+constexpr std::size_t components = 3;
+
+void require_components(const Value& list) {
+  if (list.items().size() != components) throw Error(Fault::usage, "a vector has three components", list.where());
+}
+
+/// Of component k of a vector: from a list of three formulas, or from one in which names of vectors stand for their
+/// components. With k = 0 that of a number.
+std::optional<Formula> component_formula(const Value& table, const std::string& key, int k) {
+  const Value* value = table.find(key);
+  if (!value) return std::nullopt;
+  if (k > 0 && value->kind() == Value::Kind::array) {
+    require_components(*value);
+    return formula(value->items()[static_cast<std::size_t>(k - 1)]);
+  }
+  Formula of_component = formula(*value);
+  of_component.component = k;
+  return of_component;
+}
+
+/// Component k of a vector, or with k = 0 a species that is a number.
+SpeciesSource species(const std::string& name, const Value& table, int k) {
+  const auto of_component = [&](const char* key) { return component_formula(table, key, k); };
+  return {.name = k > 0 ? component_name(name, k) : name,
           .where = table.where(),
           .diffusion = optional_formula(table, "diffusion"),
           .anisotropy = anisotropy(table),
-          .rate = optional_formula(table, "rate"),
-          .equals = optional_formula(table, "equals"),
+          .tensor = tensor(table),
+          .rate = of_component("rate"),
+          .equals = of_component("equals"),
           .c0 = optional_formula(table, "C0"),
           .c1 = optional_formula(table, "C1"),
-          .c2 = optional_formula(table, "C2"),
-          .c3 = optional_formula(table, "C3"),
-          .initial = optional_formula(table, "initial"),
-          .lower = optional_formula(table, "min"),
-          .upper = optional_formula(table, "max")};
+          .c2 = of_component("C2"),
+          .c3 = of_component("C3"),
+          .initial = of_component("initial"),
+          .lower = of_component("min"),
+          .upper = of_component("max"),
+          .vector = k > 0 ? name : ""};
+}
+
+void add_species(const std::string& name, const Value& table, std::vector<SpeciesSource>& list) {
+  const Value* vector = table.find("vector");
+  if (!vector || !vector->boolean()) return list.push_back(species(name, table, 0));
+  for (int k = 1; k <= static_cast<int>(components); ++k) list.push_back(species(name, table, k));
+}
+
+/// A list of three formulas is a vector.
+void add_definition(const std::string& name, const Value& value, std::vector<DefinitionSource>& list) {
+  if (value.kind() != Value::Kind::array) return list.push_back({name, formula(value)});
+  require_components(value);
+  for (std::size_t k = 0; k < components; ++k)
+    list.push_back({component_name(name, static_cast<int>(k + 1)), formula(value.items()[k])});
 }
 
 ParameterSource parameter(const std::string& name, const Value& value) {
@@ -137,10 +189,9 @@ ModelSource model(const Value& document) {
   result.suggestions = suggestions(document);
   for_entries(document, "parameters",
               [&](auto& name, auto& value) { result.parameters.push_back(parameter(name, value)); });
-  for_entries(document, "definitions", [&](auto& name, auto& value) {
-    result.definitions.push_back({name, formula(value)});
-  });
-  for_entries(document, "species", [&](auto& name, auto& value) { result.species.push_back(species(name, value)); });
+  for_entries(document, "definitions",
+              [&](auto& name, auto& value) { add_definition(name, value, result.definitions); });
+  for_entries(document, "species", [&](auto& name, auto& value) { add_species(name, value, result.species); });
   constexpr std::size_t most_species = 100;  // each of them has a derivative by each, and linear theory a matrix of all
   if (result.species.size() > most_species)
     throw Error(Fault::usage,

@@ -52,6 +52,7 @@ min = 0
 
 # In place of diffusion:
 # anisotropy = { theta = "0", a1 = "2", a2 = "1" }    # rates along and across the field of directions
+# tensor = { xx = "2", yy = "1", zz = "1", xy = "0.5", xz = "0", yz = "0" }    # a matrix along the axes of space
 # C0 = "1"    # with C1, the more general  C0 div(C1 grad u)
 # C1 = "1"
 # In place of rate:
@@ -59,6 +60,7 @@ min = 0
 # C3 = "a + made"
 # In place of all else, for a species that is a formula of others at all times:
 # equals = "u - v"
+# vector = true    # three components u_1, u_2, u_3; in rate and initial u stands for each of them in turn
 
 [suggested]
 end = 200                                  # time when the pattern is finished

@@ -97,6 +97,29 @@ std::vector<Tensor> quadrature_tensors(const Discretisation& d, const std::vecto
   return result;
 }
 
+namespace {
+
+double ratio(double smallest, double largest) { return largest > 0 ? std::sqrt(largest / std::max(smallest, 0.0)) : 1; }
+
+double ratio_across(const Tensor& t, const Point& n) {
+  if (dot(n, n) == 0) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(matrix_of(t), Eigen::EigenvaluesOnly);
+    return ratio(axes.eigenvalues()[0], axes.eigenvalues()[2]);
+  }
+  const Point e = some_tangent(n), f = cross(n, e);
+  const double ee = dot(e, times(t, e)), ef = dot(e, times(t, f)), ff = dot(f, times(t, f));
+  const double mean = (ee + ff) / 2, radius = std::hypot((ee - ff) / 2, ef);
+  return ratio(mean - radius, mean + radius);
+}
+
+}  // namespace
+
+double largest_ratio(const std::vector<Tensor>& tensors, const std::vector<Point>& normals) {
+  double largest = 1;
+  for (std::size_t q = 0; q < tensors.size(); ++q) largest = std::max(largest, ratio_across(tensors[q], normals[q]));
+  return largest;
+}
+
 double largest_ratio(const Kinetics::TensorField& rates) {
   double ratio = 1;
   for (std::size_t i = 0; i < rates.a1.size(); ++i) {

@@ -34,4 +34,8 @@ std::vector<Tensor> quadrature_tensors(const Discretisation& discretisation, con
 /// Largest ratio of a1 and a2, taken either way; infinite where one of them is 0 and the other is not.
 double largest_ratio(const Kinetics::TensorField& rates);
 
+/// The same of tensors, whose rates are the roots of their eigenvalues: in the planes across the normals, or in space
+/// where these are 0.
+double largest_ratio(const std::vector<Tensor>& tensors, const std::vector<Point>& normals);
+
 }  // namespace pelage

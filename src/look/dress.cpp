@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "look/cut_tessellation.h"
+#include "react/formula.h"
 #include "shape/normals.h"
 #include "shape/relief.h"
 
@@ -25,6 +26,30 @@ std::string attribute_name(std::string field) {
   return field;
 }
 
+/// How many of the fields from i on are one attribute: of u_1, u_2, u_3 the vector u.
+std::size_t width_of_field(const std::vector<std::string>& species, std::size_t i) {
+  const std::string& first = species[i];
+  if (!first.ends_with("_1") || i + 2 >= species.size()) return 1;
+  const std::string vector = first.substr(0, first.size() - 2);
+  return species[i + 1] == component_name(vector, 2) && species[i + 2] == component_name(vector, 3) ? 3 : 1;
+}
+
+/// The fields as attributes, components of vectors together.
+std::vector<Attribute> field_attributes(const std::vector<std::string>& species,
+                                        const std::vector<std::vector<double>>& fields) {
+  std::vector<Attribute> attributes;
+  for (std::size_t i = 0; i < fields.size();) {
+    const std::size_t width = width_of_field(species, i), count = fields[i].size();
+    const std::string name = width > 1 ? species[i].substr(0, species[i].size() - 2) : species[i];
+    Attribute& a = attributes.emplace_back(
+        Attribute{attribute_name(name), static_cast<int>(width), Domain::vertex, std::vector<double>(width * count)});
+    for (std::size_t k = 0; k < width; ++k)
+      for (std::size_t v = 0; v < count; ++v) a.values[width * v + k] = fields[i + k][v];
+    i += width;
+  }
+  return attributes;
+}
+
 /// By its heights, which it then has in its vertices.
 TriangleMesh displaced(TriangleMesh mesh) {
   const std::string_view height = kind_of(Channel::height).attribute;
@@ -38,8 +63,11 @@ class CoatNames {
  public:
   CoatNames(const std::vector<Attribute>& attributes, const Paint& paint) : own_{"color"} {
     for (const Attribute& a : attributes) given_.insert(a.name);
-    for (std::size_t i = 0; paint.fields && i < paint.species.size(); ++i)
+    for (std::size_t i = 0; paint.fields && i < paint.species.size(); ++i) {
       own_.insert(attribute_name(paint.species[i]));
+      if (width_of_field(paint.species, i) > 1)
+        own_.insert(attribute_name(paint.species[i].substr(0, paint.species[i].size() - 2)));
+    }
     for (const auto& [channel, formula] : paint.channels) own_.emplace(kind_of(channel).attribute);
   }
   /// What makes room takes the place of another, which makes room in turn.
@@ -80,8 +108,8 @@ TriangleMesh dress(Tessellation t, const Palette& palette) {
            : t.corner_normal.empty() ? Attribute{"normal", 3, Domain::vertex, flattened(t.samples.normal)}
                                      : Attribute{"normal", 3, Domain::corner, flattened(t.corner_normal)});
   mesh.set({"color", 3, Domain::vertex, std::move(color)});
-  for (std::size_t i = 0; paint.fields && i < t.samples.fields.size(); ++i)
-    mesh.set({attribute_name(paint.species[i]), 1, Domain::vertex, std::move(t.samples.fields[i])});
+  if (paint.fields)
+    for (Attribute& a : field_attributes(paint.species, t.samples.fields)) mesh.set(std::move(a));
   for (auto* more : {&channels, &t.attributes})
     for (Attribute& a : *more) mesh.set(std::move(a));
   return paint.displace && paint.channels.contains(Channel::height) ? displaced(std::move(mesh)) : mesh;

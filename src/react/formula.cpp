@@ -37,6 +37,9 @@ const Symbol* built_in_symbol(std::string_view name) {
   return found == symbols.end() ? nullptr : &found->second;
 }
 
+/// STAGE.SPECIES: a field that is finished.
+bool is_stage_field(std::string_view name) { return name.find('.') != std::string_view::npos; }
+
 /// FNV-1a, a hash of text that is the same on every machine.
 std::uint64_t text_hash(std::string_view text) {
   std::uint64_t key = 0xcbf29ce484222325ULL;
@@ -73,7 +76,11 @@ std::string written_otherwise(std::string_view word) {
 class Parser {
  public:
   Parser(Graph& graph, const Formula& formula, const Scope& scope, std::string_view label)
-      : graph_(graph), scope_(scope), tokens_(tokenize(formula)), label_(text_hash(label)) {}
+      : graph_(graph),
+        scope_(scope),
+        tokens_(tokenize(formula)),
+        label_(text_hash(label)),
+        component_(formula.component) {}
 
   NodeId parse() {
     const NodeId result = disjunction();
@@ -129,16 +136,25 @@ class Parser {
   NodeId call(const Token& name, const Function& function);
   std::vector<NodeId> arguments(const Token& name, std::string_view usage, std::size_t least, std::size_t most);
   NodeId attribute(const Token& name);
-  int species(const Token& of);
-  int species_in_brackets(const Token& name);
-  int gradient(const Token& name);
+  NodeId field(std::string_view name, const Location& where);
+  std::vector<int> species(const Token& of);
+  std::vector<int> species_in_brackets(const Token& name);
+  std::vector<int> gradient(const Token& name);
+  int component_of(const std::vector<int>& species, const Token& name) const;
   NodeId laplacian(const Token& name);
   NodeId squared_gradient(const Token& name);
-  NodeId product_of_gradients(const Token& name);
+  NodeId product(const Token& name);
+  NodeId product_of_gradients(const std::vector<int>& a, const std::vector<int>& b, const Token& name);
+  NodeId norm(const Token& name);
+  NodeId cross_product(const Token& name);
+  NodeId sum_of_products(const std::array<NodeId, 3>& u, const std::array<NodeId, 3>& v);
+  std::array<NodeId, 3> vector(const Token& of);
+  std::optional<std::array<NodeId, 3>> vector_called(std::string_view name, const Location& where);
   NodeId divergence(const Token& name);
   NodeId flux(const Token& name);
   NodeId operator_symbol(Symbol symbol, const Token& name);
-  bool is_species(std::string_view name) const;
+  std::optional<int> species_index(std::string_view name) const;
+  std::vector<int> species_called(std::string_view name) const;
   void require_plain_coefficient(NodeId c, const Token& name) const;
   std::string derivative_hint(std::string_view word) const;
   NodeId white_noise(const Token& name);
@@ -152,6 +168,7 @@ class Parser {
   const Scope& scope_;
   const std::vector<Token> tokens_;
   const std::uint64_t label_;
+  const int component_;
   std::uint64_t occurrence_ = 0;
   std::size_t position_ = 0;
   int depth_ = 0;
@@ -247,6 +264,9 @@ NodeId Parser::parenthesis() {
 
 NodeId Parser::variable(const Token& name) {
   if (const auto found = scope_.names.find(name.text); found != scope_.names.end()) return found->second;
+  if (component_ > 0)
+    if (const auto found = scope_.names.find(component_name(name.text, component_)); found != scope_.names.end())
+      return found->second;
   if (name.text == "grad") gradient_alone(name);
   if (name.text == "pi") return graph_.constant(3.14159265358979323846);
   if (name.text == "e") return graph_.constant(2.71828182845904523536);
@@ -259,11 +279,7 @@ NodeId Parser::variable(const Token& name) {
     const NodeId k1 = symbol(*built_in_symbol("k1")), k2 = symbol(*built_in_symbol("k2"));
     return make(Op::multiply, graph_.constant(0.5), make(Op::add, k1, k2));
   }
-  if (name.text.find('.') != std::string_view::npos) {  // STAGE.SPECIES: a field that is finished
-    Symbol field{Symbol::Kind::attribute};
-    field.name = name.text;
-    return symbol(field);
-  }
+  if (is_stage_field(name.text)) return field(name.text, name.where);
   unknown(name, false);
 }
 
@@ -271,7 +287,9 @@ NodeId Parser::call(const Token& name) {
   if (name.text == "attribute") return attribute(name);
   if (name.text == "lap") return laplacian(name);
   if (name.text == "grad2") return squared_gradient(name);
-  if (name.text == "dot") return product_of_gradients(name);
+  if (name.text == "dot") return product(name);
+  if (name.text == "norm") return norm(name);
+  if (name.text == "cross") return cross_product(name);
   if (name.text == "div") return divergence(name);
   if (name.text == "grad") gradient_alone(name);
   if (name.text == "uniform" || name.text == "normal") return white_noise(name);
@@ -314,29 +332,60 @@ NodeId Parser::attribute(const Token& name) {
   return graph_.symbol(symbol);
 }
 
-bool Parser::is_species(std::string_view name) const {
-  const auto found = scope_.names.find(name);
-  return found != scope_.names.end() && graph_[found->second].op == Op::symbol &&
-         graph_.symbol_of(found->second).kind == Symbol::Kind::species;
+NodeId Parser::field(std::string_view name, const Location& where) {
+  Symbol field{Symbol::Kind::attribute};
+  field.name = name;
+  field.where = where;
+  return graph_.symbol(field);
 }
 
-/// The number of the species that stands here.
-int Parser::species(const Token& of) {
-  const std::string function(of.text);
-  if (peek().kind == Token::Kind::name && is_species(peek().text))
-    return graph_.symbol_of(scope_.names.find(take().text)->second).index;
+std::optional<int> Parser::species_index(std::string_view name) const {
+  const auto found = scope_.names.find(name);
+  if (found == scope_.names.end() || graph_[found->second].op != Op::symbol) return std::nullopt;
+  const Symbol& symbol = graph_.symbol_of(found->second);
+  return symbol.kind == Symbol::Kind::species ? std::optional(symbol.index) : std::nullopt;
+}
+
+/// One species, or the three that are the components of a vector; none for other names.
+std::vector<int> Parser::species_called(std::string_view name) const {
+  if (const auto index = species_index(name)) return {*index};
+  std::vector<int> list;
+  for (int k = 1; k <= 3; ++k)
+    if (const auto index = species_index(component_name(name, k))) list.push_back(*index);
+  if (list.size() != 3) list.clear();
+  return list;
+}
+
+/// The numbers of the species that stands here, one or three.
+std::vector<int> Parser::species(const Token& of) {
+  if (peek().kind == Token::Kind::name)
+    if (const std::vector<int> found = species_called(peek().text); !found.empty()) {
+      take();
+      return found;
+    }
   const bool is_formula = peek().kind != Token::Kind::name || std::ranges::count(reserved_names(), peek().text) > 0;
+  const std::string function(of.text);
   expected("the name of a species in " + function + "()" +
            (is_formula ? " (for " + function + " of a formula make a species that equals it)" : ""));
 }
 
-int Parser::species_in_brackets(const Token& name) {
+std::vector<int> Parser::species_in_brackets(const Token& name) {
   take();  // '('
-  const int index = species(name);
+  const std::vector<int> list = species(name);
   if (!accept(")"))
     expected("')' after the name of the species; for " + std::string(name.text) +
              "(formula) make a species that equals the formula");
-  return index;
+  return list;
+}
+
+/// The one that a formula of this component means.
+int Parser::component_of(const std::vector<int>& species, const Token& name) const {
+  if (species.size() == 1) return species[0];
+  if (component_ == 0)
+    throw Error(Fault::usage,
+                std::string(name.text) + "() of a vector is a vector; name one of its components, _1, _2 or _3",
+                name.where);
+  return species[static_cast<std::size_t>(component_ - 1)];
 }
 
 NodeId Parser::operator_symbol(Symbol symbol, const Token& name) {
@@ -345,30 +394,97 @@ NodeId Parser::operator_symbol(Symbol symbol, const Token& name) {
 }
 
 NodeId Parser::laplacian(const Token& name) {
-  return operator_symbol({Symbol::Kind::laplacian, species_in_brackets(name)}, name);
+  return operator_symbol({Symbol::Kind::laplacian, component_of(species_in_brackets(name), name)}, name);
 }
 
+/// Of a vector the sum over its components, as of dot(grad u, grad v).
 NodeId Parser::squared_gradient(const Token& name) {
-  Symbol symbol{Symbol::Kind::gradients, species_in_brackets(name)};
-  symbol.other = symbol.index;
-  return operator_symbol(symbol, name);
+  const std::vector<int> of = species_in_brackets(name);
+  return product_of_gradients(of, of, name);
 }
 
 /// `grad u` or `grad(u)` as a part of another function.
-int Parser::gradient(const Token& name) {
+std::vector<int> Parser::gradient(const Token& name) {
   if (!sees("grad")) expected("grad of a species in " + std::string(name.text) + "()");
   const Token& grad = take();
   return sees("(") ? species_in_brackets(grad) : species(grad);
 }
 
-NodeId Parser::product_of_gradients(const Token& name) {
+/// dot(grad u, grad v), or dot(u, v) of vectors.
+NodeId Parser::product(const Token& name) {
   take();  // '('
-  Symbol symbol{Symbol::Kind::gradients, gradient(name)};
+  if (!sees("grad")) {
+    const std::array<NodeId, 3> u = vector(name);
+    if (!accept(",")) expected("',' between the vectors of dot(u, v)");
+    const std::array<NodeId, 3> v = vector(name);
+    if (!accept(")")) expected("')' after dot(u, v");
+    return sum_of_products(u, v);
+  }
+  const std::vector<int> a = gradient(name);
   if (!accept(",")) expected("',' between the gradients of dot(grad u, grad v)");
-  symbol.other = gradient(name);
+  const std::vector<int> b = gradient(name);
   if (!accept(")")) expected("')' after dot(grad u, grad v");
-  if (symbol.other < symbol.index) std::swap(symbol.index, symbol.other);
-  return operator_symbol(symbol, name);
+  if (a.size() != b.size())
+    throw Error(Fault::usage, "dot(grad u, grad v) takes two species or two vectors", name.where);
+  return product_of_gradients(a, b, name);
+}
+
+NodeId Parser::product_of_gradients(const std::vector<int>& a, const std::vector<int>& b, const Token& name) {
+  std::optional<NodeId> sum;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    Symbol symbol{Symbol::Kind::gradients, std::min(a[k], b[k])};
+    symbol.other = std::max(a[k], b[k]);
+    const NodeId product = operator_symbol(symbol, name);
+    sum = sum ? make(Op::add, *sum, product) : product;
+  }
+  return *sum;
+}
+
+/// Those of which all components are known; fields of earlier stages are found when all stages are.
+std::optional<std::array<NodeId, 3>> Parser::vector_called(std::string_view name, const Location& where) {
+  std::array<NodeId, 3> u;
+  for (int k = 1; k <= 3; ++k) {
+    const std::string component = component_name(name, k);
+    const auto found = scope_.names.find(component);
+    if (found == scope_.names.end() && !is_stage_field(name)) return std::nullopt;
+    u[static_cast<std::size_t>(k - 1)] = found == scope_.names.end() ? field(component, where) : found->second;
+  }
+  return u;
+}
+
+std::array<NodeId, 3> Parser::vector(const Token& of) {
+  if (peek().kind == Token::Kind::name)
+    if (const auto found = vector_called(peek().text, peek().where)) {
+      take();
+      return *found;
+    }
+  expected((of.text == "dot" ? "grad of a species or " : "") + std::string("the name of a vector in ") +
+           std::string(of.text) + "(), one u of which u_1, u_2 and u_3 are known");
+}
+
+NodeId Parser::sum_of_products(const std::array<NodeId, 3>& u, const std::array<NodeId, 3>& v) {
+  NodeId sum = make(Op::multiply, u[0], v[0]);
+  for (std::size_t k = 1; k < 3; ++k) sum = make(Op::add, sum, make(Op::multiply, u[k], v[k]));
+  return sum;
+}
+
+NodeId Parser::norm(const Token& name) {
+  take();  // '('
+  const std::array<NodeId, 3> u = vector(name);
+  if (!accept(")")) expected("')' after norm(u");
+  return make(Op::square_root, sum_of_products(u, u));
+}
+
+NodeId Parser::cross_product(const Token& name) {
+  take();  // '('
+  const std::array<NodeId, 3> u = vector(name);
+  if (!accept(",")) expected("',' between the vectors of cross(u, v)");
+  const std::array<NodeId, 3> v = vector(name);
+  if (!accept(")")) expected("')' after cross(u, v");
+  if (component_ == 0)
+    throw Error(Fault::usage, "cross(u, v) is a vector and stands in the formulas of vectors only", name.where);
+  const auto a = static_cast<std::size_t>(component_ % 3), b = (a + 1) % 3;
+  return make(Op::subtract, make(Op::multiply, u[a], v[b]), make(Op::multiply, u[b], v[a]));
 }
 
 void Parser::gradient_alone(const Token& name) {
@@ -396,7 +512,7 @@ NodeId Parser::flux(const Token& name) {
   Op op = Op::multiply;
   do {
     if (op == Op::multiply && !of && sees("grad"))
-      of = gradient(name);
+      of = component_of(gradient(name), name);
     else
       c = make(op, c, signed_power());
     op = sees("/") ? Op::divide : Op::multiply;
@@ -426,7 +542,7 @@ void Parser::require_plain_coefficient(NodeId c, const Token& name) const {
 /// Of words like u_x and u_xx.
 std::string Parser::derivative_hint(std::string_view word) const {
   const auto end = word.rfind('_');
-  if (end == std::string_view::npos || end + 1 == word.size() || !is_species(word.substr(0, end)) ||
+  if (end == std::string_view::npos || end + 1 == word.size() || !species_index(word.substr(0, end)) ||
       word.find_first_not_of("xyz", end + 1) != std::string_view::npos)
     return "";
   const std::string u(word.substr(0, end));
@@ -483,6 +599,9 @@ void Parser::unknown(const Token& name, bool is_function) const {
     for (const auto& [text, id] : scope_.names) names.push_back(text);
   names.insert(names.end(), reserved_names().begin(), reserved_names().end());
   std::string hint = written_otherwise(word);
+  if (hint.empty() && !is_function && scope_.names.contains(component_name(word, 1)))
+    hint = "a vector is a number by its components, " + component_name(word, 1) + ", or as norm(" + word +
+           ") and dot(" + word + ", v)";
   if (hint.empty()) hint = derivative_hint(word);
   if (hint.empty()) hint = did_you_mean(word, names);
   throw Error(Fault::usage,

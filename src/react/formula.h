@@ -11,8 +11,10 @@
 //   lap(u): surface Laplacian of a species u; in rate and equals only, times numbers and parameters (react/laplacian.h)
 //   grad2(u), dot(grad u, grad v): products of surface gradients of species; in rate and equals only
 //   div(c grad u): divergence of a flux with a formula c; in rate only, times numbers and parameters
-//   uniform(a, b), normal(mean, deviation): white noise, an independent draw at every place
-//   noise(length [, seed]): band-limited noise, mean 0, variance 1, length in the model's own length unit
+//   norm(u), dot(u, v), cross(u, v): of vectors; u is one where u_1, u_2 and u_3 are names. In a formula for a
+//   component k of a vector (Formula::component) u stands for u_k. uniform(a, b), normal(mean, deviation): white noise,
+//   an independent draw at every place noise(length [, seed]): band-limited noise, mean 0, variance 1, length in the
+//   model's own length unit
 //
 // Random functions are drawn once per run and depend on the place, not on any mesh. Every occurrence in a
 // text is a field of its own, unless noise is given a seed: then all occurrences with that seed agree.
@@ -26,6 +28,11 @@
 #include "react/lexer.h"
 
 namespace pelage {
+
+/// Component 1, 2 or 3 of a vector as formulas name it.
+inline std::string component_name(std::string_view vector, int k) {
+  return std::string(vector) + "_" + std::to_string(k);
+}
 
 /// The names that a formula may use beside the built-in ones.
 struct Scope {

@@ -63,6 +63,10 @@ class KineticsBuilder {
     const Equations& e = equations_;
     if (parts == Kinetics::Parts::all) add_reaction();
     kinetics_.diffusion_ = program(join(e.prefactor, e.diffusion), {});
+    std::vector<NodeId> entries;
+    for (const auto& tensor : e.tensor)
+      if (tensor) entries.insert(entries.end(), tensor->begin(), tensor->end());
+    kinetics_.tensors_ = program(entries, {});
     std::vector<NodeId> coefficients;
     for (const Flux& flux : e.fluxes) coefficients.push_back(flux.coefficient);
     kinetics_.fluxes_ = program(coefficients, {});
@@ -192,6 +196,10 @@ void Kinetics::jacobian(SpeciesValues u, double t, std::size_t begin, std::size_
 void Kinetics::diffusion(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput c0,
                          SpeciesOutput c1) const {
   run(diffusion_, u, t, begin, end, join(c0, c1));
+}
+
+void Kinetics::tensors(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput out) const {
+  run(tensors_, u, t, begin, end, out);
 }
 
 void Kinetics::fluxes(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput out) const {

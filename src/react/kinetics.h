@@ -48,7 +48,7 @@ using SpeciesOutput = std::span<double* const>;
 /// concentrations clamped to the bounds of the model: with b >= 0, rates use max(b, 0).
 class Kinetics {
  public:
-  /// What is known: everything, or diffusion(), fluxes() and anisotropy() alone.
+  /// What is known: everything, or diffusion(), tensors(), fluxes() and anisotropy() alone.
   enum class Parts { all, diffusion };
 
   /// Copies what it needs from `places`. Error(usage), located in the model, if the model uses normals,
@@ -77,6 +77,8 @@ class Kinetics {
   /// C0 and C1 of every species (C0 = 1 where C0 is constant: then C1 holds the product).
   void diffusion(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput c0,
                  SpeciesOutput c1) const;
+  /// C1 of the species where it is a tensor: six outputs for each of these, as TensorSource.
+  void tensors(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput out) const;
   /// The coefficients of Equations::fluxes.
   void fluxes(SpeciesValues u, double t, std::size_t begin, std::size_t end, SpeciesOutput out) const;
   /// Diffusion tensor of an anisotropic species (react/model.h), one value per sample.
@@ -113,7 +115,7 @@ class Kinetics {
   std::vector<std::vector<double>> fields_;  ///< expressions of the place alone, one value per sample
   std::vector<std::array<std::vector<double>, 3>>
       anisotropy_;  ///< theta, a1, a2: one value per sample, or one for all; empty where isotropic
-  Program rates_, split_, jacobian_, diffusion_, fluxes_;
+  Program rates_, split_, jacobian_, diffusion_, tensors_, fluxes_;
 };
 
 /// The concentrations of species i at time 0, one value per place, clamped to its bounds.

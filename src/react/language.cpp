@@ -6,8 +6,8 @@ namespace pelage {
 
 namespace {
 
-constexpr std::string_view place = "Place and time", shape = "Shape", space = "Derivatives", random = "Random",
-                           number = "Numbers", function = "Functions";
+constexpr std::string_view place = "Place and time", shape = "Shape", space = "Derivatives", vectors = "Vectors",
+                           random = "Random", number = "Numbers", function = "Functions";
 
 std::vector<Word> all_words() {
   std::vector<Word> list = {
@@ -32,6 +32,9 @@ std::vector<Word> all_words() {
       {space, "dot(grad u, grad v)", "the scalar product of two gradients; likewise"},
       {space, "div(c grad u)",
        "the divergence of a flux, times numbers and parameters; c is any formula; in rate only"},
+      {vectors, "norm(u)", "the length of u, a name of which u_1, u_2 and u_3 are known"},
+      {vectors, "dot(u, v)", "the scalar product of two vectors"},
+      {vectors, "cross(u, v)", "their vector product; in formulas of vectors only"},
       {random, "noise(length)", "smooth noise of mean 0 and deviation 1; length in model units"},
       {random, "noise(length, seed)", "the same in every formula that names this seed, a whole number"},
       {random, "uniform(lower, upper)", "another number at every place, all equally likely"},

@@ -13,6 +13,7 @@ namespace pelage {
 struct Formula {
   std::string text;
   Location where;
+  int component = 0;  ///< for which a name of a vector stands: 1, 2 or 3; 0: for none
 };
 
 struct Token {

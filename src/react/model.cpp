@@ -10,6 +10,7 @@
 #include "base/number.h"
 #include "base/suggest.h"
 #include "react/derivative.h"
+#include "react/diffusion_tensor.h"
 #include "react/formula.h"
 #include "react/gradient_terms.h"
 #include "react/laplacian.h"
@@ -97,6 +98,7 @@ class Compiler {
 
   void add_species() {
     for (const SpeciesSource& species : source_.species) {
+      if (species.name == component_name(species.vector, 1)) claim(species.vector, species.where);
       claim(species.name, species.where);
       Symbol symbol{Symbol::Kind::species, static_cast<int>(equations_.species.size())};
       symbol.where = species.where;
@@ -174,10 +176,12 @@ class Compiler {
   NodeId parse(const SpeciesSource& species, const std::string& key, const std::optional<Formula>& formula,
                double otherwise) {
     if (!formula) return graph_.constant(otherwise);
-    const NodeId id = parse_formula(graph_, *formula, scope_, "species." + species.name + "." + key);
+    const bool flows = key == "diffusion" || key == "C0" || key == "C1" || key.find('.') != std::string::npos;
+    // Components share their diffusion, random fields in it included.
+    const std::string& owner = flows && !species.vector.empty() ? species.vector : species.name;
+    const NodeId id = parse_formula(graph_, *formula, scope_, "species." + owner + "." + key);
     const std::string found = key == "rate" ? "" : differential_operator(graph_, id);
     if (found.empty() || (key == "equals" && found != "div()")) return id;
-    const bool flows = key == "diffusion" || key == "C0" || key == "C1";
     fail(found + " can stand in `rate`" + (found == "div()" ? "" : " and in `equals`") + " only" +
              (flows ? "; make a species that equals it" : ""),
          formula->where);
@@ -213,13 +217,17 @@ class Compiler {
       fail("the lower bound of species \"" + species.name + "\" is above its upper bound", species.lower->where);
   }
 
+  static const Location& directional_where(const SpeciesSource& species) {
+    return species.anisotropy ? species.anisotropy->a1.where : species.tensor->front().where;
+  }
+
   void require_nothing_else(const SpeciesSource& species) {
     if (const auto changed = initial_.find(species.name); changed != initial_.end())
       fail("species \"" + species.name + "\" is determined by `equals`; give nothing else beside it",
            changed->second.where);
-    if (species.anisotropy)
+    if (species.anisotropy || species.tensor)
       fail("species \"" + species.name + "\" is determined by `equals`; give nothing else beside it",
-           species.anisotropy->a1.where);
+           directional_where(species));
     for (const auto* other : {&species.diffusion, &species.rate, &species.c0, &species.c1, &species.c2, &species.c3,
                               &species.initial, &species.lower, &species.upper})
       if (*other)
@@ -240,6 +248,8 @@ class Compiler {
         fail("species \"" + species.name + "\": give anisotropy, or " +
                  (other == &species.diffusion ? "diffusion" : "C0 and C1") + ", not both",
              (*other)->where);
+    if (species.tensor)
+      fail("species \"" + species.name + "\": give anisotropy, or tensor, not both", species.tensor->front().where);
     const AnisotropySource& a = *species.anisotropy;
     const Anisotropy nodes{parse_anisotropy(species, "theta", a.theta),
                            scaled_rate(parse_anisotropy(species, "a1", a.a1)),
@@ -250,9 +260,46 @@ class Compiler {
     equations_.diffusion.push_back((across * across).id);
   }
 
+  void add_tensor_diffusion(const SpeciesSource& species) {
+    for (const auto* other : {&species.diffusion, &species.c1})
+      if (*other)
+        fail("species \"" + species.name + "\": give tensor, or " + (other == &species.diffusion ? "diffusion" : "C1") +
+                 ", not both",
+             (*other)->where);
+    Term c0{&graph_, parse(species, "C0", species.c0, 1)};
+    std::array<NodeId, 6> tensor;
+    const bool even = graph_.constant_value(c0.id).has_value();
+    for (std::size_t k = 0; k < tensor.size(); ++k) {
+      const Term entry{&graph_, scaled_diffusion(parse(species, std::string("tensor.") + tensor_entries[k],
+                                                       (*species.tensor)[k], 0))};
+      tensor[k] = even ? (c0 * entry).id : entry.id;
+    }
+    require_diffusing(species, tensor);
+    equations_.tensor.emplace_back(tensor);
+    equations_.prefactor.push_back(even ? graph_.constant(1) : c0.id);
+    const Term xx{&graph_, tensor[0]}, yy{&graph_, tensor[3]}, zz{&graph_, tensor[5]};
+    equations_.diffusion.push_back((1.0 / 3 * (xx + yy + zz)).id);
+  }
+
+  /// What is known of a tensor before it meets any place.
+  void require_diffusing(const SpeciesSource& species, const std::array<NodeId, 6>& nodes) {
+    std::array<double, 6> tensor{};
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const auto value = graph_.constant_value(nodes[k]);
+      if (!value) return;
+      tensor[k] = *value;
+    }
+    if (!positive_semidefinite(tensor))
+      fail("the tensor of species \"" + species.name +
+               "\" would gather instead of spread in some direction; it must be " + "positive semidefinite",
+           species.tensor->front().where);
+  }
+
   void add_diffusion(const SpeciesSource& species) {
+    if (species.anisotropy || !species.tensor) equations_.tensor.emplace_back();
     if (species.anisotropy) return add_anisotropic_diffusion(species);
     equations_.anisotropy.emplace_back();
+    if (species.tensor) return add_tensor_diffusion(species);
     const bool coefficients = species.c0 || species.c1;
     if (species.diffusion && coefficients)
       fail("species \"" + species.name + "\": give diffusion, or C0 and C1, not both", species.where);
@@ -293,8 +340,8 @@ class Compiler {
       split = {outside(parse(species, "C2", species.c2, 0)), outside(parse(species, "C3", species.c3, 0))};
       rate = (Term{&graph_, split.c2} * u + Term{&graph_, split.c3}).id;
     }
-    const bool diffuses = species.diffusion || species.anisotropy || species.c0 || species.c1 || laplacians ||
-                          own_flux(equations_.rate.size());
+    const bool diffuses = species.diffusion || species.anisotropy || species.tensor || species.c0 || species.c1 ||
+                          laplacians || own_flux(equations_.rate.size());
     if (!diffuses && !species.equals)
       fail("species \"" + species.name + "\" has no diffusion; give 0 if it does not diffuse", species.where);
     has_laplacian_.push_back(laplacians);
@@ -349,7 +396,7 @@ class Compiler {
              source_.species[flux.species].c0->where);
     for (std::size_t i = 0; i < equations_.species.size(); ++i) {
       const Flux* own = own_flux(i);
-      if (own && equations_.anisotropy[i])
+      if (own && (equations_.anisotropy[i] || equations_.tensor[i]))
         fail("species \"" + source_.species[i].name +
                  "\" is anisotropic; its rate cannot contain div() of its own gradient",
              source_.species[i].rate->where);
@@ -371,6 +418,7 @@ class Compiler {
       const auto& a = equations_.anisotropy[i];
       std::vector<NodeId> read = {equations_.rate[i], equations_.prefactor[i], equations_.diffusion[i]};
       if (a) read.insert(read.end(), {a->theta, a->a1, a->a2});
+      if (const auto& t = equations_.tensor[i]) read.insert(read.end(), t->begin(), t->end());
       for (const Flux& flux : equations_.fluxes)
         if (flux.species == i) read.insert(read.end(), {flux.coefficient, equations_.species[flux.of]});
       for (const std::size_t j : species_in(read))
@@ -396,9 +444,9 @@ class Compiler {
     const SpeciesSource& species = source_.species[i];
     const auto diffusion = graph_.constant_value(equations_.diffusion[i]);
     const bool coupled = is_coupled(equations_, i);
-    if (species.anisotropy && (coupled || has_laplacian_[i]))
+    if ((species.anisotropy || species.tensor) && (coupled || has_laplacian_[i]))
       fail("species \"" + species.name + "\" is anisotropic; its equations cannot contain lap()",
-           species.anisotropy->a1.where);
+           directional_where(species));
     if (coupled && !(diffusion && graph_.constant_value(equations_.prefactor[i])))
       fail("the diffusion of species \"" + species.name +
                "\" varies; one that is linked to others by lap() must be made of numbers and parameters",
@@ -507,7 +555,7 @@ std::optional<double> Model::period() const {
 
 std::optional<double> Model::diffusion_constant(std::size_t i) const {
   const Graph& graph = equations_->graph;
-  if (!graph.constant_value(equations_->prefactor[i])) return std::nullopt;
+  if (has_tensor(i) || !graph.constant_value(equations_->prefactor[i])) return std::nullopt;
   return graph.constant_value(equations_->diffusion[i]);
 }
 
@@ -520,6 +568,16 @@ std::vector<std::size_t> Model::coupled() const {
 
 bool Model::anisotropic() const {
   return std::ranges::any_of(equations_->anisotropy, [](const auto& a) { return a.has_value(); });
+}
+
+bool Model::has_tensor() const {
+  return std::ranges::any_of(equations_->tensor, [](const auto& t) { return t.has_value(); });
+}
+
+bool Model::same_diffusion(std::size_t i, std::size_t j) const {
+  const Equations& e = *equations_;
+  return e.prefactor[i] == e.prefactor[j] && e.diffusion[i] == e.diffusion[j] && e.anisotropy[i] == e.anisotropy[j] &&
+         e.tensor[i] == e.tensor[j];
 }
 
 bool Model::jumps() const {
@@ -539,7 +597,10 @@ bool Model::varying_prefactor(std::size_t i) const {
 
 unsigned Model::diffusion_dependence(std::size_t i) const {
   const Graph& graph = equations_->graph;
-  return graph[equations_->prefactor[i]].dependence | graph[equations_->diffusion[i]].dependence;
+  unsigned varies = graph[equations_->prefactor[i]].dependence | graph[equations_->diffusion[i]].dependence;
+  if (const auto& tensor = equations_->tensor[i])
+    for (const NodeId entry : *tensor) varies |= graph[entry].dependence;
+  return varies;
 }
 
 namespace {
@@ -572,6 +633,9 @@ std::uint64_t Model::fingerprint() const {
   for (const auto& a : e.anisotropy)
     for (const NodeId id : a ? std::array{a->theta, a->a1, a->a2} : std::array{-1, -1, -1})
       f.add(static_cast<std::uint64_t>(id));
+  for (const auto& tensor : e.tensor)
+    if (tensor)
+      for (const NodeId entry : *tensor) f.add(static_cast<std::uint64_t>(entry));
   for (const auto& pin : e.pin) f.add(static_cast<std::uint64_t>(pin.value_or(-1)));
   f.add(static_cast<std::uint64_t>(e.mask.value_or(-1)));
   for (const char algebraic : e.algebraic) f.add(static_cast<std::uint64_t>(algebraic));

@@ -7,8 +7,10 @@
 // contain Laplacians of this and other species with constant coefficients; and a species w may be algebraic, w = f +
 // sum_j E_j lap(u_j) at every time, which makes equations of fourth order out of two of second order:
 //     du_i/dt = C0 div(C1 grad u_i) + sum_j D_ij lap(u_j) + sum_j div(c_ij grad u_j) + R_i
-// Rates may also contain products of gradients of species (react/gradient_terms.h).
+// Rates may also contain products of gradients of species (react/gradient_terms.h). C1 may be a tensor. A vector is
+// three species, its components, that share C0 and C1.
 
+#include <array>
 #include <limits>
 #include <map>
 #include <memory>
@@ -30,11 +32,17 @@ struct AnisotropySource {
   Formula a1, a2;  ///< rates: model length unit / square root of the model time unit
 };
 
+/// C1 as a symmetric tensor along the axes of space, of which on surfaces the part along them acts: formulas of all
+/// that a diffusion may depend on, xx, xy, xz, yy, yz, zz [model length unit^2 / model time unit].
+using TensorSource = std::array<Formula, 6>;
+constexpr std::array<const char*, 6> tensor_entries = {"xx", "xy", "xz", "yy", "yz", "zz"};
+
 struct SpeciesSource {
   std::string name;
   Location where;
   std::optional<Formula> diffusion;            ///< model length unit^2 / model time unit; "0" if it does not diffuse
   std::optional<AnisotropySource> anisotropy;  ///< instead of `diffusion`
+  std::optional<TensorSource> tensor;          ///< instead of `diffusion` or C1
   std::optional<Formula> rate;                 ///< R: concentration / model time unit; may contain D lap(v),
                                                ///< grad2(v), dot(grad u, grad v), div(c grad v)
   std::optional<Formula> equals;  ///< makes it algebraic, instead of all else: a formula in the evolving species and
@@ -43,6 +51,7 @@ struct SpeciesSource {
       c3;                               ///< instead of `diffusion` (C0, C1) or of `rate` (C2, C3); C0, C1 default to 1
   std::optional<Formula> initial;       ///< at time 0; defaults to 0
   std::optional<Formula> lower, upper;  ///< bounds to which the concentration is clamped; numbers or parameters
+  std::string vector;                   ///< of which it is a component, by its name; empty: of none
 };
 
 struct ParameterSource {
@@ -138,6 +147,7 @@ ModelSource with_variant(ModelSource source, const std::string& variant);
 /// A diffusion tensor as expressions of the place; see AnisotropySource.
 struct Anisotropy {
   NodeId theta, a1, a2;
+  bool operator==(const Anisotropy&) const = default;
 };
 
 /// The equations of a model; expressions in terms of `graph`, one per species unless said otherwise.
@@ -154,8 +164,10 @@ struct Equations {
   std::vector<NodeId> c2, c3;     ///< R = C2 u + C3
   std::vector<NodeId> prefactor;  ///< C0, 1 when it is constant (then it is part of `diffusion`)
   std::vector<NodeId> diffusion;  ///< C1, with the coefficient of the species' own Laplacian in its rate; where it is
-                                  ///< anisotropic a2^2, that across the stripes which the field draws out
+                                  ///< anisotropic a2^2, that across the stripes which the field draws out; of a tensor
+                                  ///< the mean of xx, yy and zz
   std::vector<std::optional<Anisotropy>> anisotropy;
+  std::vector<std::optional<std::array<NodeId, 6>>> tensor;  ///< C1 where it is one: as TensorSource
   std::vector<double> cross;               ///< coefficient of lap(u_j) in equation i at [i * species + j], 0 for j = i
   std::vector<NodeId> initial;             ///< depends on the place only
   std::vector<std::optional<NodeId>> pin;  ///< likewise, where concentrations are held
@@ -195,6 +207,11 @@ class Model {
   bool anisotropic(std::size_t i) const { return equations_->anisotropy[i].has_value(); }
   /// Whether any does.
   bool anisotropic() const;
+  /// Whether the diffusion of species i is a tensor given by formulas, and whether that of any is.
+  bool has_tensor(std::size_t i) const { return equations_->tensor[i].has_value(); }
+  bool has_tensor() const;
+  /// Whether C0 and C1 of two species are the same expressions.
+  bool same_diffusion(std::size_t i, std::size_t j) const;
 
   /// Whether a rate may jump with the concentrations: it has if(), comparisons or floor() of them.
   bool jumps() const;
@@ -203,7 +220,7 @@ class Model {
   bool held() const { return equations_->mask.has_value(); }
   bool pinned(std::size_t i) const { return equations_->pin[i].has_value(); }
 
-  /// C0 * C1 of species i where both are numbers; otherwise see Kinetics::diffusion. Not negative unless coupled.
+  /// C0 * C1 of species i where both are numbers; otherwise see Kinetics. Not negative unless coupled.
   std::optional<double> diffusion_constant(std::size_t i) const;
   /// Whether C0 of species i is not a number.
   bool varying_prefactor(std::size_t i) const;

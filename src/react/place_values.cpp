@@ -159,6 +159,8 @@ std::vector<Symbol> place_symbols(const Model& model) {
   for (const Flux& flux : e.fluxes) roots.push_back(flux.coefficient);
   for (const auto& a : e.anisotropy)
     if (a) roots.insert(roots.end(), {a->theta, a->a1, a->a2});
+  for (const auto& tensor : e.tensor)
+    if (tensor) roots.insert(roots.end(), tensor->begin(), tensor->end());
   for (const auto& pin : e.pin)
     if (pin) roots.push_back(*pin);
   if (e.mask) roots.push_back(*e.mask);

@@ -63,6 +63,8 @@ EquationValues values_of(const Model& model) {
     for (const Flux& flux : equations.fluxes) append(values.others, {flux.coefficient});
     const std::vector<double> d = evaluate(equations.graph, diffusions, value_of);
     for (std::size_t i = 0; i < n; ++i) values.diffusions.push_back(d[i] * d[n + i]);
+    for (const auto& tensor : equations.tensor)
+      if (tensor) append(values.diffusions, {tensor->begin(), tensor->end()});
     for (const auto& a : equations.anisotropy) {
       if (!a) continue;
       const std::vector<double> t = evaluate(equations.graph, std::vector<NodeId>{a->a1, a->theta}, value_of);

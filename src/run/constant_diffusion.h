@@ -16,6 +16,13 @@ std::vector<Eigen::Matrix3d> constant_tensors(const StageProgram& stage, const S
 /// The rates of an anisotropic species that do not depend on the place.
 Kinetics::TensorField even_anisotropy(const StageProgram& stage, std::size_t species);
 
+/// C1 of a species that has a tensor, at the places of `kinetics` for fields given there.
+std::vector<Tensor> tensors_of(const Model& model, std::size_t species, const Kinetics& kinetics,
+                               const std::vector<const double*>& fields, double time);
+
+/// The largest ratio of the rates that a tensor has along the axes of a lattice.
+double largest_ratio(const Lattice& lattice, const Eigen::Matrix3d& tensor);
+
 /// Whether a stage needs no matrices: its stepper goes by the lattice with these tensors, and nothing is held, coupled
 /// or driven by gradients.
 bool needs_no_matrices(const StageProgram& stage, const Space& space, const Material& material,

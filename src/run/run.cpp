@@ -70,7 +70,7 @@ double first_step(const StageProgram& p, double stable_step) {
 void warn_of_anisotropy(const std::string& label, const Method& method, const StageProgram& p,
                         const StageSystem& equations, std::vector<std::string>& warnings) {
   for (std::size_t i = 0; i < p.model.species_count(); ++i) {
-    if (!p.model.anisotropic(i)) continue;
+    if (!p.model.anisotropic(i) && !p.model.has_tensor(i)) continue;
     if (const double ratio = equations.anisotropy(i); ratio > method.safe_anisotropy)
       warnings.push_back(label + "the rates of " + p.model.species_name(i) + " along and across differ " +
                          number(ratio) + " times; above " + number(method.safe_anisotropy) + " times, with --method " +

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <deque>
 
+#include "base/number.h"
 #include "base/parallel.h"
 #include "discretise/anisotropy.h"
 #include "pelage/error.h"
+#include "react/diffusion_tensor.h"
 #include "run/constant_diffusion.h"
 #include "time/step_support.h"
 
@@ -87,6 +89,10 @@ void StageSystem::add_species(std::size_t i) {
 }
 
 double StageSystem::anisotropy(std::size_t i) const {
+  if (stage_->model.has_tensor(i)) {
+    if (matrix_free_) return largest_ratio(*system_.lattice, *system_.species[i].tensor);
+    return largest_ratio(tensors_at_quadrature(i, nullptr), space_->geometry(SampleRule::quadrature, false).normal);
+  }
   if (!matrix_free_) return largest_ratio(quadrature_kinetics_->anisotropy(i));
   return largest_ratio(even_anisotropy(*stage_, i));
 }
@@ -195,8 +201,24 @@ void StageSystem::add_borders() {
     };
 }
 
+/// Takes the matrices of an earlier species with the same diffusion, if there is one: components of vectors have it.
+bool StageSystem::share_diffusion(std::size_t i) {
+  for (std::size_t j = 0; j < i; ++j) {
+    if (!stage_->model.same_diffusion(i, j)) continue;
+    const Species& other = system_.species[j];
+    Species& s = system_.species[i];
+    s.stiffness = other.stiffness;
+    s.diffusion = other.diffusion;
+    s.mass = other.mass;
+    s.weight = other.weight;
+    return true;
+  }
+  return false;
+}
+
 /// The stiffness of a species whose diffusion varies (with the initial state) or has directions.
 void StageSystem::fill_own_stiffness(std::size_t i) {
+  if (share_diffusion(i)) return;
   if (!stage_->model.anisotropic(i)) return fill_variable(i, nullptr);
   const Kinetics::TensorField rates = quadrature_kinetics_->anisotropy(i);
   Species& s = system_.species[i];
@@ -207,7 +229,9 @@ void StageSystem::fill_own_stiffness(std::size_t i) {
 /// The variable coefficients of one species at its initial state, or at `state`.
 void StageSystem::fill_variable(std::size_t i, const State* state) {
   Species& s = system_.species[i];
-  s.stiffness = std::make_shared<const SparseMatrix>(space_->stiffness(c1_at_quadrature(i, state)));
+  s.stiffness = std::make_shared<const SparseMatrix>(stage_->model.has_tensor(i)
+                                                         ? space_->stiffness(tensors_at_quadrature(i, state))
+                                                         : space_->stiffness(c1_at_quadrature(i, state)));
   if (!stage_->model.varying_prefactor(i)) return;
   s.weight = std::make_shared<const Vector>(system_.sampling->weight.cwiseQuotient(c0_at_samples(i, state)));
   s.mass = std::make_shared<const SparseMatrix>(sampled_mass(*system_.sampling, *s.weight, system_.mass->pattern));
@@ -265,6 +289,19 @@ std::vector<double> StageSystem::c1_at_quadrature(std::size_t species, const Sta
   return {c1.begin(), c1.end()};
 }
 
+std::vector<Tensor> StageSystem::tensors_at_quadrature(std::size_t species, const State* state) const {
+  const Kinetics& kinetics = *quadrature_kinetics_;
+  const std::vector<Vector> fields = fields_at(SampleRule::quadrature, quadrature_values_, state);
+  std::vector<Tensor> tensors = tensors_of(stage_->model, species, kinetics, pointers(fields), state ? state->time : 0);
+  const auto bad = std::ranges::find_if_not(tensors, positive_semidefinite);
+  if (bad == tensors.end()) return tensors;
+  const Point place =
+      space_->geometry(SampleRule::quadrature, false).position[static_cast<std::size_t>(bad - tensors.begin())];
+  throw Error(Fault::usage, "the tensor of " + stage_->model.species_name(species) + " at (" + number(place[0]) + ", " +
+                                number(place[1]) + ", " + number(place[2]) +
+                                ") would gather instead of spread in some direction; it must be positive semidefinite");
+}
+
 /// The matrices are divided by C0: where it is 0, a thousandth of its largest value stands in.
 constexpr double smallest_share_of_c0 = 1e-3;
 
@@ -280,7 +317,7 @@ Vector StageSystem::c0_at_samples(std::size_t species, const State* state) const
 
 void StageSystem::update(const State& state) {
   for (std::size_t i = 0; i < system_.species.size(); ++i)
-    if (diffusion_varies_in_time(stage_->model, i)) fill_variable(i, &state);
+    if (diffusion_varies_in_time(stage_->model, i) && !share_diffusion(i)) fill_variable(i, &state);
 }
 
 namespace {

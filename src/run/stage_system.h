@@ -24,7 +24,7 @@ class StageSystem {
   /// Brings diffusions that depend on time or on the fields up to date; to be called before every step.
   void update(const State& state);
 
-  /// The largest ratio of the rates along and across of species i, which is anisotropic.
+  /// The largest ratio of the rates along and across of species i, which is anisotropic or has a tensor.
   double anisotropy(std::size_t i) const;
 
  private:
@@ -43,6 +43,8 @@ class StageSystem {
   void fill_variable(std::size_t i, const State* state);
   std::vector<Vector> fields_at(SampleRule rule, const SparseMatrix& values, const State* state) const;
   std::vector<double> c1_at_quadrature(std::size_t species, const State* state) const;
+  std::vector<Tensor> tensors_at_quadrature(std::size_t species, const State* state) const;
+  bool share_diffusion(std::size_t i);
   Vector c0_at_samples(std::size_t species, const State* state) const;
 
   const StageProgram* stage_;

@@ -32,6 +32,7 @@ std::vector<std::string> keys_in(const std::string& table) {
 TEST(Skeleton, HasAllKeysOfAModelFile) {
   const std::string text = model_skeleton("mine");
   for (const std::string table : {"", "[species.u]\n", "[species.u]\nanisotropy.a1 = 1\nanisotropy.a2 = 1\nanisotropy.",
+                                  "[species.u]\ntensor.xx = 1\ntensor.yy = 1\ntensor.zz = 1\ntensor.",
                                   "[parameters.a]\nvalue = 1\n", "[suggested]\n", "[variants.v]\n"})
     for (const std::string& key : keys_in(table))
       EXPECT_TRUE(key == "stage" ||  // by which recipes are told from models

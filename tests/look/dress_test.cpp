@@ -47,6 +47,23 @@ TEST(Dress, EveryAttributeOfTheShapeStays) {
   EXPECT_EQ(coat.links[0].file, "skin.png");
 }
 
+/// u_1, u_2 and u_3 are the vector u, which files hold as one attribute; formulas know the components.
+TEST(Dress, ComponentsAreOneVector) {
+  Tessellation t = triangle({"u"});
+  t.samples.fields = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {0, 0, 1}, {5, 5, 5}};
+  Look look;
+  look.channels[Channel::height] = {"norm(u)^2 + norm(large.w)", {}};
+  const std::vector<std::string> species = {"large.w_1", "large.w_2", "large.w_3", "v_1", "b"};
+  EXPECT_THROW(resolve_paint(look, species), Error) << "there is no u";
+  look.channels[Channel::height] = {"norm(large.w)^2", {}};
+  const TriangleMesh coat = dress(t, resolve_paint(look, species), {0, 0, 0, 0, 0});
+  EXPECT_EQ(names(coat.attributes),
+            (std::vector<std::string>{"b", "color", "large_w", "material_height", "normal", "u", "v_1"}));
+  EXPECT_EQ(coat.find("large_w")->components, 3);
+  EXPECT_EQ(coat.find("large_w")->values, (std::vector<double>{1, 4, 7, 2, 5, 8, 3, 6, 9}));
+  EXPECT_DOUBLE_EQ(coat.find("material_height")->values[0], 1 + 16 + 49);
+}
+
 TEST(Dress, LeavesFieldsOutWhereTheLookSaysSo) {
   const TriangleMesh coat = dress(triangle({"color", "b"}), paint_with(false), {0, 0});
   EXPECT_EQ(names(coat.attributes), (std::vector<std::string>{"b", "color", "input_color", "normal"}));

@@ -1,5 +1,6 @@
 #include "react/formula.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -120,6 +121,56 @@ std::string repeat(const std::string& text, int count) {
   std::string result;
   for (int i = 0; i < count; ++i) result += text;
   return result;
+}
+
+/// u = (1, 2, 3) and v = (4, 5, 7), species 0 to 2 and 3 to 5.
+struct Vectors {
+  Graph graph;
+  Scope scope;
+  Vectors() {
+    for (int i = 0; i < 6; ++i)
+      scope.names[component_name(i < 3 ? "u" : "v", i % 3 + 1)] = graph.symbol({Symbol::Kind::species, i});
+  }
+  NodeId parse(const std::string& text, int component = 0) {
+    return parse_formula(graph, {text, {"f", 1, 1}, component}, scope, "f");
+  }
+  double value(const std::string& text, int component = 0) {
+    const std::array<double, 6> values = {1, 2, 3, 4, 5, 7};
+    const auto of = [&](const Symbol& s) { return values.at(static_cast<std::size_t>(s.index)); };
+    return evaluate(graph, std::vector{parse(text, component)}, of).front();
+  }
+};
+
+TEST(Formula, VectorsHaveProductsAndComponents) {
+  Vectors f;
+  EXPECT_EQ(f.value("dot(u, v)"), 4 + 10 + 21);
+  EXPECT_EQ(f.value("norm(u)^2 + u_2"), 14 + 2);
+  const std::array<double, 3> cross = {2 * 7 - 3 * 5, 3 * 4 - 1 * 7, 1 * 5 - 2 * 4};
+  for (int k = 1; k <= 3; ++k) {
+    EXPECT_EQ(f.value("cross(u, v)", k), cross[static_cast<std::size_t>(k - 1)]);
+    EXPECT_EQ(f.value("2*v - dot(u, u)*u", k), f.value("2*v_" + std::to_string(k) + " - 14*u_" + std::to_string(k)));
+    EXPECT_EQ(f.parse("lap(u)", k), f.parse("lap(u_" + std::to_string(k) + ")"));
+    EXPECT_EQ(f.parse("div(u_1 grad v)", k), f.parse("div(u_1 grad v_" + std::to_string(k) + ")"));
+  }
+  EXPECT_EQ(f.parse("grad2(u)"), f.parse("grad2(u_1) + grad2(u_2) + grad2(u_3)"));
+  EXPECT_EQ(f.parse("dot(grad v, grad u)"),
+            f.parse("dot(grad u_1, grad v_1) + dot(grad u_2, grad v_2) + dot(grad u_3, grad v_3)"));
+  EXPECT_EQ(f.parse("norm(first.w)"), f.parse("sqrt(first.w_1*first.w_1 + first.w_2*first.w_2 + first.w_3*first.w_3)"));
+}
+
+TEST(Formula, VectorsAreNoNumbers) {
+  Vectors f;
+  const auto says = [&](const std::string& text, const std::string& what) {
+    const std::string message = error_of([&] { f.parse(text); });
+    EXPECT_NE(message.find(what), std::string::npos) << message;
+  };
+  says("2*u", "u_1");
+  says("cross(u, v)", "in the formulas of vectors only");
+  says("lap(u)", "_1, _2 or _3");
+  says("div(2 grad u)", "_1, _2 or _3");
+  says("dot(u, w)", "the name of a vector");
+  says("norm(u_1)", "the name of a vector");
+  says("dot(grad u, grad u_1)", "two species or two vectors");
 }
 
 TEST(Formula, NestingAndLengthAreBounded) {

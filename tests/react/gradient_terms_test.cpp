@@ -141,7 +141,9 @@ TEST(GradientTerms, WhatIsNotPossibleIsRefused) {
       fault(with_rate("lap(grad2(u))")),
       "m.toml:4:13: expected the name of a species in lap() (for lap of a formula make a species that equals it), "
       "found 'grad2'");
-  EXPECT_EQ(fault(with_rate("dot(u, v)")), "m.toml:4:13: expected grad of a species in dot(), found 'u'");
+  EXPECT_EQ(fault(with_rate("dot(u, v)")),
+            "m.toml:4:13: expected grad of a species or the name of a vector in dot(), one u of which u_1, u_2 and u_3 "
+            "are known, found 'u'");
   EXPECT_EQ(fault(with_rate("div(u)")),
             "m.toml:4:14: expected a gradient in each term of div(), as in div(c grad u), found ')'");
   EXPECT_EQ(fault(with_rate("div(1/grad u)")), "m.toml:4:15: " + alone);

@@ -14,7 +14,7 @@
 namespace pelage {
 namespace {
 
-/// The names that stand for arguments, as constants; u is a species.
+/// The names that stand for arguments, as constants; u and v are species, and vectors of constants.
 Scope scope_of_examples(Graph& graph) {
   Scope scope;
   for (const char* name : {"a", "b", "x", "edge", "edge0", "lower", "mean", "length", "condition"})
@@ -23,6 +23,7 @@ Scope scope_of_examples(Graph& graph) {
   scope.names["c"] = graph.constant(1);
   scope.names["u"] = graph.symbol({Symbol::Kind::species, 0});
   scope.names["v"] = graph.symbol({Symbol::Kind::species, 1});
+  for (const char* name : {"u_1", "u_2", "u_3", "v_1", "v_2", "v_3"}) scope.names[name] = graph.constant(1);
   return scope;
 }
 
@@ -31,7 +32,7 @@ TEST(Language, EveryUsageIsAFormula) {
     Graph graph;
     // A gradient stands in others only.
     const std::string usage = word.usage == "grad u" ? "dot(grad u, grad u)" : word.usage;
-    EXPECT_NO_THROW(parse_formula(graph, {usage, {}}, scope_of_examples(graph), "test")) << word.usage;
+    EXPECT_NO_THROW(parse_formula(graph, {usage, {}, 1}, scope_of_examples(graph), "test")) << word.usage;
     EXPECT_FALSE(word.meaning.empty()) << word.usage;
     EXPECT_EQ(word.meaning.find('|'), std::string::npos) << "would end a column: " << word.usage;
   }
