@@ -148,7 +148,8 @@ void add_method_options(CLI::App* app, FairCommand& command) {
           ->type_name("NAME");
   app->add_option("--method", command.method,
                   "guided (default), or for comparison: paper (anisotropic diffusion on the limit surface, Bajaj, "
-                  "Zhang, Xu 2008), isotropic, taubin. Of attributes: anisotropic (keeps edges; default), isotropic")
+                  "Zhang, Xu 2008), isotropic, taubin. Of attributes: anisotropic (keeps their edges; "
+                  "default), isotropic, paper (keeps apart what edges of the shape part)")
       ->type_name("NAME");
   app->add_option("--noise", options.noise,
                   "Standard deviation of the noise in mean edges, or in the attribute's unit (default: estimated)")

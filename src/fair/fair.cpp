@@ -67,12 +67,6 @@ double moved_along_normals(const FairState& state, const std::vector<Point>& fro
   return count ? std::sqrt(sum / static_cast<double>(count)) : 0;
 }
 
-std::vector<char> boundary_vertices(const Topology& topology) {
-  std::vector<char> on_boundary(topology.vertex_count);
-  for (Index v = 0; v < topology.vertex_count; ++v) on_boundary[v] = topology.on_boundary(v);
-  return on_boundary;
-}
-
 std::vector<double> flattened(const std::vector<Point>& points) {
   std::vector<double> values;
   for (const Point& p : points) values.insert(values.end(), p.begin(), p.end());
