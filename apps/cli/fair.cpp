@@ -45,6 +45,7 @@ void print_report(const FairCommand& command, const FairReport& r) {
   std::printf("faired    %d steps of %s%s\n", r.steps, command.method.value_or(command.options.method).c_str(),
               settings(r).c_str());
   std::printf("moved     %s along the normals\n", edges(r.moved).c_str());
+  if (r.kept > 0) std::printf("kept      %zu vertices, which had no noise\n", r.kept);
   if (r.volume_before != 0)
     std::printf("volume    %s before, %s after\n", number(r.volume_before).c_str(), number(r.volume_after).c_str());
   if (r.folded > 0) std::printf("warning   %zu vertices belong to triangles that are folded over\n", r.folded);
@@ -64,6 +65,7 @@ Json to_json(const FairCommand& command, const FairReport& r) {
           {"range", used(r.range)},
           {"volume_before", json_number(r.volume_before)},
           {"volume_after", json_number(r.volume_after)},
+          {"kept_vertices", r.kept},
           {"folded_vertices", r.folded},
           {"files", command.outputs}};
 }
@@ -146,7 +148,8 @@ void add_method_options(CLI::App* app, FairCommand& command) {
           ->type_name("NAME");
   app->add_option("--method", command.method,
                   "guided (default), or for comparison: paper (anisotropic diffusion on the limit surface, Bajaj, "
-                  "Zhang, Xu 2008), isotropic, taubin. Of attributes: anisotropic (keeps edges; default), isotropic")
+                  "Zhang, Xu 2008), isotropic, taubin. Of attributes: anisotropic (keeps their edges; "
+                  "default), isotropic, paper (keeps apart what edges of the shape part)")
       ->type_name("NAME");
   app->add_option("--noise", options.noise,
                   "Standard deviation of the noise in mean edges, or in the attribute's unit (default: estimated)")

@@ -38,6 +38,7 @@ struct FairReport {
   double volume_before = 0, volume_after = 0;  ///< of the closed parts, world units^3
   double tau = 0, sigma = 0, angle = 0;        ///< that were used last, 0 where the method has none
   double range = 0;                            ///< guided: of normals in the last step, |n - n'|
+  std::size_t kept = 0;                        ///< guided: vertices without noise that stayed, where some only have it
   std::size_t folded = 0;                      ///< triangles that still lean away from their smoothed normal
 };
 
@@ -79,6 +80,7 @@ class Fairing {
     std::vector<Point> points;  ///< between two steps: the volume of closed parts is not restored
     int steps = 0;
     bool done = false;
+    std::size_t kept = 0;  ///< as in the report
   };
   State state() const;
   /// Goes on from there, with the same mesh and options. Error(Fault::usage) unless there are as many points as the
@@ -89,6 +91,7 @@ class Fairing {
   struct Parts;
   void measure();
   void measure_way();
+  bool settle_where_some_are_noisy();
   bool noise_is_off(double correlation_before) const;
 
   FairOptions options_;

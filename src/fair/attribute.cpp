@@ -9,9 +9,11 @@
 #include "base/suggest.h"
 #include "discretise/assembly.h"
 #include "discretise/quadrature.h"
+#include "fair/boundary.h"
 #include "fair/diffusivity.h"
 #include "fair/faces.h"
 #include "fair/noise.h"
+#include "fair/paper.h"
 #include "linalg/conjugate_gradient.h"
 #include "pelage/error.h"
 
@@ -90,19 +92,28 @@ class Diffusion {
         stiffness_(assembler_.stiffness(points_)),
         edge_(mean_edge(*discretisation_.topology, points_)) {}
 
-  Field isotropic(const Field& f, double tau) const { return solved(f, tau, stiffness_); }
+  /// As the paper's method fairs the surface: across its edges values hardly mix.
+  Field along_curvature(const Field& f, double tau) {
+    if (!paper_) {
+      const Topology& topology = *discretisation_.topology;
+      paper_ = paper_equations({topology, points_, boundary_vertices(topology)});
+    }
+    return solved(f, tau, paper_->mass, paper_->stiffness);
+  }
+
+  Field isotropic(const Field& f, double tau) const { return solved(f, tau, mass_, stiffness_); }
 
   Field anisotropic(const Field& f, double tau, double& contrast) const {
     const std::vector<Tensor> tensor = tensors(isotropic(f, time_before_slopes), contrast);
-    return solved(f, tau, assembler_.stiffness(points_, tensor));
+    return solved(f, tau, mass_, assembler_.stiffness(points_, tensor));
   }
 
  private:
-  Field solved(const Field& f, double tau, const SparseMatrix& stiffness) const {
+  Field solved(const Field& f, double tau, const SparseMatrix& mass, const SparseMatrix& stiffness) const {
     SparseMatrix matrix;
-    combine(1, mass_, tau * edge_ * edge_, stiffness, matrix);
+    combine(1, mass, tau * edge_ * edge_, stiffness, matrix);
     Field result;
-    for (const Vector& component : f) result.push_back(solve_spd(matrix, mass_ * component, {.tolerance = 1e-9}));
+    for (const Vector& component : f) result.push_back(solve_spd(matrix, mass * component, {.tolerance = 1e-9}));
     return result;
   }
 
@@ -144,6 +155,7 @@ class Diffusion {
   Assembler assembler_;
   SparseMatrix mass_, stiffness_;
   double edge_;
+  std::optional<PaperEquations> paper_;
 };
 
 /// Linear elements on obtuse triangles may pass the range of a function a little; diffusion does not.
@@ -168,7 +180,7 @@ double noise_of(const Topology& topology, const std::vector<Point>& points, cons
 }  // namespace
 
 const std::vector<std::string>& attribute_methods() {
-  static const std::vector<std::string> names = {"anisotropic", "isotropic"};
+  static const std::vector<std::string> names = {"anisotropic", "isotropic", "paper"};
   return names;
 }
 
@@ -183,13 +195,17 @@ SmoothedAttribute smooth_attribute(const TriangleMesh& mesh, const std::string& 
   AttributeReport& report = result.report;
   report.noise = options.noise ? *options.noise : noise_of(topology, mesh.points, from);
   const int most = options.steps.value_or(report.noise > 0 ? most_steps : 0);
-  const Diffusion diffusion(mesh, topology);
+  Diffusion diffusion(mesh, topology);
   Field field = from;
   while (report.steps < most && (options.steps || report.changed < noise_share * report.noise)) {
     if (progress && !progress("smoothing", static_cast<double>(report.steps) / most))
       throw Error(Fault::cancelled, "cancelled");
-    field = options.method == "isotropic" ? diffusion.isotropic(field, options.tau)
-                                          : diffusion.anisotropic(field, options.tau, report.contrast);
+    if (options.method == "isotropic")
+      field = diffusion.isotropic(field, options.tau);
+    else if (options.method == "paper")
+      field = diffusion.along_curvature(field, options.tau);
+    else
+      field = diffusion.anisotropic(field, options.tau, report.contrast);
     keep_range(from, field);
     report.changed = change(from, field);
     ++report.steps;

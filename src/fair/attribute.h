@@ -29,7 +29,8 @@ struct SmoothedAttribute {
   AttributeReport report;
 };
 
-/// Methods: "anisotropic" (edges of the function stay: the default) and "isotropic" (heat flow).
+/// Methods: "anisotropic" (edges of the function stay: the default), "isotropic" (heat flow) and "paper" (across edges
+/// of the surface values hardly mix).
 const std::vector<std::string>& attribute_methods();
 
 /// Diffuses all components of a vertex attribute f together, in implicit steps with linear elements on the triangles:
@@ -37,7 +38,8 @@ const std::vector<std::string>& attribute_methods();
 /// "anisotropic" takes D = sum of g(s_i) e_i e_i' from the eigenvectors e_i of the structure tensor
 /// sum_c grad f_c grad f_c' (Di Zenzo 1986) with eigenvalues s_i^2, of the function after one isotropic step: edge-
 /// enhancing diffusion (Weickert 1998) with the g of eq. (20) of Bajaj, Zhang, Xu 2008. The contrast follows the median
-/// slope. Values stay within the range that each component has at the start. Error(Fault::usage) for an unknown
+/// slope. "paper" takes eq. (21) of that paper for f on the Loop limit surface, with the tensor of its curvatures.
+/// Values stay within the range that each component has at the start. Error(Fault::usage) for an unknown
 /// attribute or method, for one that is not at the vertices, for "normal", and for options out of range;
 /// Error(Fault::input) for meshes that are not manifold; Error(Fault::cancelled).
 SmoothedAttribute smooth_attribute(const TriangleMesh& mesh, const std::string& name,

@@ -48,4 +48,10 @@ void BoundaryRails::put_back(std::vector<Point>& points) const {
   }
 }
 
+std::vector<char> boundary_vertices(const Topology& topology) {
+  std::vector<char> on_boundary(topology.vertex_count);
+  for (Index v = 0; v < topology.vertex_count; ++v) on_boundary[v] = topology.on_boundary(v);
+  return on_boundary;
+}
+
 }  // namespace pelage

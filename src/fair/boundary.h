@@ -28,4 +28,7 @@ class BoundaryRails {
   std::vector<char> corner_;
 };
 
+/// Per vertex whether it lies on the boundary.
+std::vector<char> boundary_vertices(const Topology& topology);
+
 }  // namespace pelage

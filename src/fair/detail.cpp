@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/quantile.h"
 #include "fair/faces.h"
+#include "fair/rings.h"
 
 namespace pelage {
 
@@ -20,45 +21,19 @@ constexpr double excess = 1.6;
 /// Of noise alone the means over two rings (19 vertices) are below this share of their median at one vertex in ten.
 constexpr double quiet_quantile = 0.1, quiet_share = 0.58;
 
-/// A vertex of more faces than this is near its neighbours, but does not bring them together: the work would grow with
-/// the square of their number.
-constexpr std::int32_t many_around = 64;
-
-std::vector<std::int32_t> count_faces(const Topology& topology) {
-  std::vector<std::int32_t> count(topology.vertex_count, 0);
-  for (const Triangle& t : topology.triangles)
-    for (const Index v : t) ++count[v];
-  return count;
-}
-
-/// The vertex and the free vertices of two rings around it, each once.
-void two_rings(const Topology& topology, const std::vector<char>& fixed, const std::vector<std::int32_t>& faces,
-               Index v, std::vector<Index>& ring, std::vector<Index>& near) {
-  topology.one_ring(v, near);
-  for (std::size_t k = 0, first = near.size(); k < first; ++k) {
-    if (faces[near[k]] > many_around) continue;
-    topology.one_ring(near[k], ring);
-    near.insert(near.end(), ring.begin(), ring.end());
-  }
-  std::erase_if(near, [&](Index w) { return w == v || fixed[w]; });
-  near.push_back(v);
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
-}
-
 struct Around {
   std::vector<double> with, without;  ///< mean of the squared ways in two rings, with and without the vertex itself
 };
 
 Around means_around(const Topology& topology, const std::vector<char>& fixed, const std::vector<double>& square) {
-  const std::vector<std::int32_t> faces = count_faces(topology);
+  const TwoRings rings(topology, fixed);
   Around mean{std::vector<double>(square.size(), 0), std::vector<double>(square.size(), 0)};
   parallel_for(
       square.size(),
       [&](std::size_t begin, std::size_t end) {
-        std::vector<Index> ring, near;
+        std::vector<Index> near;
         for (std::size_t v = begin; v < end; ++v) {
-          two_rings(topology, fixed, faces, static_cast<Index>(v), ring, near);
+          rings.around(static_cast<Index>(v), near);
           double sum = 0;
           for (Index w : near) sum += square[w];
           mean.with[v] = sum / static_cast<double>(near.size());

@@ -9,6 +9,7 @@
 #include "fair/detail.h"
 #include "fair/faces.h"
 #include "fair/flow.h"
+#include "fair/impulses.h"
 #include "fair/noise.h"
 #include "fair/volume.h"
 #include "fair/whiteness.h"
@@ -30,6 +31,8 @@ constexpr double largest_share = 1.05;
 /// before it to compare with, so that it takes more. Details of bunnies, heads, horses and parts first make more error
 /// than the noise did at 1.4 to 1.8.
 constexpr double suspect_growth = 1.35, certain_growth = 1.6, certain_first_growth = 2;
+/// After so many steps it is asked whether some vertices only have noise.
+constexpr int impulse_steps = 3;
 /// On top of that, growth in one step that is too little to matter in any number of steps that are taken.
 constexpr double negligible_growth = 8e-4;
 
@@ -62,12 +65,6 @@ double moved_along_normals(const FairState& state, const std::vector<Point>& fro
   for (const double square : squared_ways(state.topology.triangles, state.fixed, from, state.points)) sum += square;
   const auto count = std::ranges::count(state.fixed, char{0});
   return count ? std::sqrt(sum / static_cast<double>(count)) : 0;
-}
-
-std::vector<char> boundary_vertices(const Topology& topology) {
-  std::vector<char> on_boundary(topology.vertex_count);
-  for (Index v = 0; v < topology.vertex_count; ++v) on_boundary[v] = topology.on_boundary(v);
-  return on_boundary;
 }
 
 std::vector<double> flattened(const std::vector<Point>& points) {
@@ -132,12 +129,24 @@ void Fairing::step() {
   measure();
   const double wanted = noise_share * report_.noise;
   finished_ = !options_.steps && noise_is_off(correlation_before);
+  if (settle_where_some_are_noisy()) return;
   if (!finished_ || moved_before >= wanted || report_.moved < wanted) return;
   // The last step ends where the noise is off: a whole one takes too much of a coarse mesh.
   const double part = (wanted - moved_before) / (report_.moved - moved_before);
   for (std::size_t v = 0; v < points.size(); ++v)
     for (std::size_t k = 0; k < 3; ++k) points[v][k] = before[v][k] + part * (points[v][k] - before[v][k]);
   measure_way();
+}
+
+/// By then the ways tell noise on some vertices from noise on all.
+bool Fairing::settle_where_some_are_noisy() {
+  if (options_.method != "guided" || options_.noise || options_.steps) return false;
+  if (report_.steps != impulse_steps && !(finished_ && report_.steps < impulse_steps)) return false;
+  report_.kept = settle_impulses(parts_->state, parts_->from, *parts_->method, report_);
+  if (report_.kept == 0) return false;
+  finished_ = true;
+  measure_way();
+  return true;
 }
 
 bool Fairing::noise_is_off(double correlation_before) const {
@@ -163,13 +172,14 @@ void Fairing::measure_way() { report_.moved = moved_along_normals(parts_->state,
 
 std::vector<Point> Fairing::points() const {
   std::vector<Point> points = parts_->state.points;
+  if (report_.kept > 0) return points;  // those that stay hold the volume
   if (done() && !options_.steps && options_.method == "guided")
     give_back_detail(parts_->topology, parts_->state.fixed, parts_->from, points);
   if (report_.steps > 0) parts_->closed.restore_volumes(parts_->from, points);
   return points;
 }
 
-Fairing::State Fairing::state() const { return {parts_->state.points, report_.steps, done()}; }
+Fairing::State Fairing::state() const { return {parts_->state.points, report_.steps, done(), report_.kept}; }
 
 void Fairing::restore(State state) {
   if (state.points.size() != parts_->from.size())
@@ -178,6 +188,7 @@ void Fairing::restore(State state) {
   parts_->state.points = std::move(state.points);
   report_.steps = state.steps;
   finished_ = state.done;
+  report_.kept = state.kept;
   if (state.steps > 0) measure();
 }
 

@@ -1,3 +1,5 @@
+#include "fair/paper.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -88,12 +90,9 @@ class Paper final : public FairMethod {
   void step(FairState& s, FairReport& report) override {
     const double h = report.mean_edge;
     const std::vector<Point> smooth = options_.sigma ? blurred(s.points, *options_.sigma * h) : filtered(s);
-    std::vector<Tensor> tensor = quadrature_curvature(discretisation_, smooth);
-    const double bend = options_.bend.value_or(std::max(least_bend, h * median_curvature(tensor)));
-    report.angle = bend * 180 / std::numbers::pi;
-    diffuse_by(tensor, bend / h);
-    const std::vector<Point> next = diffused(assembler_.mass(s.points, powers(-options_.mu)),
-                                             assembler_.stiffness(s.points, tensor), options_.tau * h * h, s.points);
+    const PaperEquations e = equations(s.points, smooth, h);
+    report.angle = e.bend * 180 / std::numbers::pi;
+    const std::vector<Point> next = diffused(e.mass, e.stiffness, options_.tau * h * h, s.points);
     if (options_.full)
       move(s, next);
     else
@@ -102,11 +101,15 @@ class Paper final : public FairMethod {
 
   int most_steps() const override { return 12; }
 
- private:
-  std::vector<Point> blurred(const std::vector<Point>& points, double width) const {
-    return diffused(assembler_.mass(points), assembler_.stiffness(points), width * width / 2, points);
+  /// On the surface `points` with the curvatures of the surface `smooth`.
+  PaperEquations equations(const std::vector<Point>& points, const std::vector<Point>& smooth, double edge) const {
+    std::vector<Tensor> tensor = quadrature_curvature(discretisation_, smooth);
+    const double bend = options_.bend.value_or(std::max(least_bend, edge * median_curvature(tensor)));
+    diffuse_by(tensor, bend / edge);
+    return {assembler_.mass(points, powers(-options_.mu)), assembler_.stiffness(points, tensor), bend};
   }
 
+  /// The surface whose curvatures are taken.
   std::vector<Point> filtered(const FairState& s) {
     std::vector<Point> points = s.points;
     for (int round = 0; round < filter_rounds; ++round) {
@@ -115,6 +118,11 @@ class Paper final : public FairMethod {
       unfolding_.apply(faces_of_vertex_, normal, s.fixed, unfold_rounds, points);
     }
     return points;
+  }
+
+ private:
+  std::vector<Point> blurred(const std::vector<Point>& points, double width) const {
+    return diffused(assembler_.mass(points), assembler_.stiffness(points), width * width / 2, points);
   }
 
   static void move(FairState& s, const std::vector<Point>& next) {
@@ -169,6 +177,11 @@ class Paper final : public FairMethod {
 };
 
 }  // namespace
+
+PaperEquations paper_equations(const FairState& state) {
+  Paper paper(state, {});
+  return paper.equations(state.points, paper.filtered(state), mean_edge(state.topology, state.points));
+}
 
 std::unique_ptr<FairMethod> make_paper_method(const FairState& state, const FairOptions& options, FairReport& report) {
   static const std::vector<std::string> motions = {"normal", "full"};

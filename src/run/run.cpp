@@ -459,7 +459,7 @@ double measured_wavelength(const SparseMatrix& mass, const SparseMatrix& stiffne
 
 namespace {
 
-constexpr std::string_view magic = "pelage checkpoint 4\n";
+constexpr std::string_view magic = "pelage checkpoint 5\n";
 constexpr std::string_view kind = "pelage checkpoint ";
 constexpr const char* foreign =
     "the checkpoint belongs to another run: shape, recipe, size, seed and options must be the same";
@@ -526,6 +526,7 @@ std::string Run::checkpoint(std::string_view note) const {
   w.number(surface.scale);
   w.number(std::int64_t{surface.fairing.steps});
   w.number(std::uint64_t{surface.fairing.done});
+  w.number(std::uint64_t{surface.fairing.kept});
   w.fields({flattened(surface.fairing.points)});
   return seal(std::move(out));
 }
@@ -572,6 +573,7 @@ Run::Snapshot Run::read_snapshot(const std::string& bytes) const {
     s.surface.scale = r.number();
     s.surface.fairing.steps = static_cast<int>(r.integer());
     s.surface.fairing.done = r.count() != 0;
+    s.surface.fairing.kept = r.count();
     s.faired = r.fields();
   }
   if (!r.at_end()) throw Error(Fault::input, foreign);

@@ -215,7 +215,7 @@ TEST(Run, CheckpointsOfOtherProgramsAreRefused) {
 TEST(Run, CheckpointsAreLittleEndian) {
   auto run = start(small_recipe());
   run.advance(5);
-  const std::string bytes = run.checkpoint("note"), heading = "pelage checkpoint 4\n";
+  const std::string bytes = run.checkpoint("note"), heading = "pelage checkpoint 5\n";
   EXPECT_EQ(bytes.substr(0, heading.size() + 12), heading + std::string("\x04\0\0\0\0\0\0\0note", 12));
 }
 
