@@ -153,11 +153,16 @@ void note_directions(const Program& p, StageProgram& s, std::vector<std::string>
   if (!followed.warning.empty()) warnings.push_back(followed.warning);
 }
 
+/// Edges per size: where that is no wavelength but what diffusion needs, fronts are no thinner.
+double resolution_of(const PlannedStage& planned) {
+  return planned.wavelength_known ? planned.model.source().suggestions.resolution_or_default()
+                                  : Suggestions{}.resolution_or_default();
+}
+
 /// Lowers the edges of the program to those that carry the patterns of its latest stage.
 void need_edges_of(const PlannedStage& planned, const Quality& quality, Program& program) {
   const StageProgram& s = program.stages.back();
-  const double edges =
-      quality.edges * program.method->edges * planned.model.source().suggestions.resolution_or_default();
+  const double edges = quality.edges * program.method->edges * resolution_of(planned);
   const double edge = s.size / edges;
   const MeshPlaces places{*program.shape, program.textures, s.length_unit, s.seed};
   double smallest = 1;
@@ -182,7 +187,7 @@ std::optional<double> likely_iterations(const PlannedStage& planned, const Plan&
   const Suggestions& suggested = planned.model.source().suggestions;
   const bool as_measured = !plan.method_asked && planned.asked.stepper.value.empty() && !s.step && !s.steps;
   if (!as_measured || !suggested.iterations || !suggested.end || !(*suggested.end > 0)) return {};
-  const double edges = s.size / program.edge / (program.method->edges * suggested.resolution_or_default());
+  const double edges = s.size / program.edge / (program.method->edges * resolution_of(planned));
   return *suggested.iterations * std::min(1.0, s.until / *suggested.end) * std::max(1.0, edges);
 }
 

@@ -71,7 +71,8 @@ void warn_of_anisotropy(const std::string& label, const Method& method, const St
                         const StageSystem& equations, std::vector<std::string>& warnings) {
   for (std::size_t i = 0; i < p.model.species_count(); ++i) {
     if (!p.model.anisotropic(i) && !p.model.has_tensor(i)) continue;
-    if (const double ratio = equations.anisotropy(i); ratio > method.safe_anisotropy)
+    constexpr double rounding = 1e-9;  // of the eigenvalues of tensors
+    if (const double ratio = equations.anisotropy(i); ratio > method.safe_anisotropy * (1 + rounding))
       warnings.push_back(label + "the rates of " + p.model.species_name(i) + " along and across differ " +
                          number(ratio) + " times; above " + number(method.safe_anisotropy) + " times, with --method " +
                          std::string(method.name) + ", the mesh itself begins to show in the stripes");

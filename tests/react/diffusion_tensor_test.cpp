@@ -34,6 +34,16 @@ TEST(DiffusionTensor, HasNoNegativeEigenvalue) {
     }
 }
 
+TEST(DiffusionTensor, HasNoNegativeMinor) {
+  for (const std::array<double, 6>& tensor : {std::array<double, 6>{1, 2, 0, 1, 0, 0},
+                                              {1, 0, 2, 0, 0, 1},
+                                              {0, 0, 0, 1, 2, 1},
+                                              {-1, 0, 0, 0, 0, 0},
+                                              {0, 0, 0, -1, 0, 0},
+                                              {0, 0, 0, 0, 0, -1}})
+    EXPECT_FALSE(positive_semidefinite(tensor));
+}
+
 TEST(DiffusionTensor, IsFinite) {
   EXPECT_FALSE(positive_semidefinite({1, 0, 0, 1, 0, std::numeric_limits<double>::quiet_NaN()}));
   EXPECT_FALSE(positive_semidefinite({1, 0, 0, std::numeric_limits<double>::infinity(), 0, 1}));

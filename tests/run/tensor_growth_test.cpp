@@ -10,9 +10,11 @@
 #include "catalog/bind.h"
 #include "catalog/models.h"
 #include "direction/direction_field.h"
+#include "discretise/surface_space.h"
 #include "run/run.h"
 #include "shape/generators.h"
 #include "shape/grid.h"
+#include "shape/vectors.h"
 
 namespace pelage {
 namespace {
@@ -363,6 +365,55 @@ TEST(Vectors, AreTheirThreeComponents) {
     EXPECT_EQ(a.coefficients()[i], b.coefficients()[i]) << i;
   }
   EXPECT_EQ(a.system().species[0].stiffness, a.system().species[2].stiffness) << "is assembled once";
+}
+
+/// Sum over the triangles of how often arrows turn once around each, in its plane; and how many of them they do.
+std::pair<int, int> indices(const Growth& run) {
+  const std::vector<Point> place = run.space().geometry(SampleRule::vertices, false).position;
+  std::array<Vector, 3> u;
+  for (std::size_t k = 0; k < 3; ++k) u[k] = run.space().node_values() * run.coefficients()[k];
+  int sum = 0, defects = 0;
+  for (const Triangle& t : dynamic_cast<const SurfaceSpace&>(run.space()).discretisation().topology->triangles) {
+    const auto at = [&](std::size_t corner) { return static_cast<std::size_t>(t[corner]); };
+    const Point e = unit(difference(place[at(1)], place[at(0)]));
+    const Point f = cross(unit(cross(e, difference(place[at(2)], place[at(0)]))), e);
+    std::array<double, 3> angle;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const Point arrow{u[0][t[corner]], u[1][t[corner]], u[2][t[corner]]};
+      angle[corner] = std::atan2(dot(f, arrow), dot(e, arrow));
+    }
+    double turned = 0;
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      turned += std::remainder(angle[(corner + 1) % 3] - angle[corner], 2 * pi);
+    const auto index = static_cast<int>(std::lround(turned / (2 * pi)));
+    sum += index;
+    defects += index != 0;
+  }
+  return {sum, defects};
+}
+
+/// The indices of a tangent field add up to the Euler characteristic (Poincare, Hopf); its arrows lie along the surface
+/// and are 1 long but for defects.
+TEST(Vectors, HaveTheDefectsThatTheSurfaceAsksFor) {
+  for (const auto& [shape, euler] : {std::pair{"builtin:sphere?n=2562", 2}, {"builtin:torus?n=3000", 0}}) {
+    Recipe recipe;
+    recipe.stages[0].model.value = "polar-order";
+    recipe.stages[0].size = Given<Length>{{0.5, Length::Unit::world}, {}};
+    const Growth run = grown(recipe, builtin_shape(shape));
+    const auto [sum, defects] = indices(run);
+    EXPECT_EQ(sum, euler) << shape;
+    EXPECT_GE(defects, euler);
+    const PlaceGeometry at = run.space().geometry(SampleRule::vertices, false);
+    double across = 0, length = 0;
+    for (std::size_t v = 0; v < at.normal.size(); ++v) {
+      const auto i = static_cast<Eigen::Index>(v);
+      const Point arrow{run.coefficients()[0][i], run.coefficients()[1][i], run.coefficients()[2][i]};
+      across += std::pow(dot(arrow, at.normal[v]), 2);
+      length += dot(arrow, arrow);
+    }
+    EXPECT_LT(std::sqrt(across / length), 0.03) << shape;
+    EXPECT_NEAR(length / static_cast<double>(at.normal.size()), 1, 0.25) << shape;
+  }
 }
 
 }  // namespace
