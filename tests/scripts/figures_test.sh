@@ -1,6 +1,6 @@
 #!/bin/bash
-# The page of the papers' figures: one cheap figure is made, what is wrong is said before any work, and docs/figures.md has a row
-# for every figure: figures_test.sh ROOT BUILD
+# The page of the papers' figures: one cheap figure is made, what is wrong is said before any work, docs/figures.md has a row
+# for every figure, and docs/gallery.md a picture of every recipe and model: figures_test.sh ROOT BUILD
 set -u
 root=$(realpath "$1")
 pelage=$(realpath "$2")/bin/pelage
@@ -28,5 +28,12 @@ grep -q 'unknown figure "turk-77"; did you mean "turk-7"' said || fail "$(cat sa
 
 for id in $("$pelage" figures --json | python3 -c 'import json, sys; print(*(f["figure"] for f in json.load(sys.stdin)["figures"]))'); do
   grep -q "^| \`$id\` |" "$root/docs/figures.md" || fail "docs/figures.md has no row for $id"
+done
+for list in recipes models; do
+  for name in $("$pelage" $list --json | python3 -c 'import json, sys; print(*(entry["name"] for entry in json.load(sys.stdin)))'); do
+    picture=gallery/$list/${name//:/-}-animal.png
+    grep -q "($picture)<br>\`$name\`" "$root/docs/gallery.md" && [ -s "$root/docs/$picture" ] ||
+      fail "docs/gallery.md has no picture of $name: python3 tools/gallery_page.py"
+  done
 done
 exit 0
