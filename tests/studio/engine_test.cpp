@@ -24,12 +24,12 @@ until = 40
 
 class Studio {
  public:
-  Message ask(const std::string& what, Header request = Header::object(), std::vector<Block> blocks = {}) {
+  Message ask(const std::string& what, Header request = Header::object(), std::vector<MessageBlock> blocks = {}) {
     request["do"] = what;
     return decode(engine_->handle(encode({std::move(request), std::move(blocks)})));
   }
   /// The same where it has to be answered.
-  Message told(const std::string& what, Header request = Header::object(), std::vector<Block> blocks = {}) {
+  Message told(const std::string& what, Header request = Header::object(), std::vector<MessageBlock> blocks = {}) {
     Message reply = ask(what, std::move(request), std::move(blocks));
     EXPECT_EQ(reply.header["ok"], true) << what << ": " << reply.header.dump();
     return reply;
@@ -45,7 +45,7 @@ class Studio {
 
 template <class T>
 const std::vector<T>& block(const Message& message, const std::string& name) {
-  for (const Block& b : message.blocks)
+  for (const MessageBlock& b : message.blocks)
     if (b.name == name) return std::get<std::vector<T>>(b.values);
   throw std::runtime_error("no block " + name);
 }
