@@ -215,7 +215,7 @@ export class Brush {
       return this.studio.scene.setPainted(null, "#000");
     }
     this.preview = new Float32Array(this.studio.scene.positions.length / 3);
-    for (const stroke of brushStrokes(this.studio.recipe, maps[tool].attribute)) this.lay(stroke);
+    for (const stroke of brushStrokes(this.studio.recipe, maps[tool].attribute, this.studio.info?.diagonal ?? 1)) this.lay(stroke);
     this.showPreview(tool);
   }
 

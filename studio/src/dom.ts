@@ -140,7 +140,7 @@ export function slider(options: SliderOptions): Slider {
   if (options.onReset) {
     const reset = button("", { icon: "reset", label: `${options.label}: back to the model's own value`, class: "quiet tiny" });
     reset.addEventListener("click", options.onReset);
-    head.append(reset);
+    field.before(reset);
   }
   set(options.value);
   return { node, set, setNote: (text) => (note.textContent = text) };

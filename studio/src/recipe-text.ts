@@ -353,7 +353,7 @@ function brushSections(text: string, name: string): { head: Section; strokes: Se
 
 function strokeText(stroke: Stroke): string {
   const points = stroke.points.map((point) => `[${point.map(numberText).join(", ")}]`).join(", ");
-  const numbers = [`radius = ${numberText(stroke.radius)}`, `value = ${numberText(stroke.value)}`];
+  const numbers = [`radius = "${numberText(stroke.radius)}u"`, `value = ${numberText(stroke.value)}`];
   return `[[brush.stroke]]\n${numbers.join("\n")}\nhardness = ${numberText(stroke.hardness)}\npoints = [${points}]\n`;
 }
 
@@ -375,10 +375,16 @@ function pointsValue(raw: string | null): [number, number, number][] {
   }
 }
 
-/** The strokes of a brush, to be shown. */
-export function brushStrokes(text: string, name: string): Stroke[] {
+/** A length in world units: "0.03u", or a number, which is a fraction of the diagonal. */
+function worldLength(raw: string | null, diagonal: number): number {
+  const units = /^([0-9.eE+-]+)u$/.exec(stringValue(raw) ?? "");
+  return units ? Number(units[1]) : (numberValue(raw) ?? 0) * diagonal;
+}
+
+/** The strokes of a brush on a shape of this diagonal, to be shown. */
+export function brushStrokes(text: string, name: string, diagonal: number): Stroke[] {
   return (brushSections(text, name)?.strokes ?? []).map((section) => ({
-    radius: numberValue(rawValue(text, section, "radius")) ?? 0,
+    radius: worldLength(rawValue(text, section, "radius"), diagonal),
     value: numberValue(rawValue(text, section, "value")) ?? 1,
     hardness: numberValue(rawValue(text, section, "hardness")) ?? 0.5,
     points: pointsValue(rawValue(text, section, "points")),

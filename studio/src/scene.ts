@@ -91,8 +91,8 @@ export class Scene {
   private readonly material = new three.MeshStandardMaterial({ roughness: 0.75, metalness: 0, side: three.DoubleSide });
   private readonly uniforms: Uniforms;
   private mesh: three.Mesh<three.BufferGeometry, three.MeshStandardMaterial>;
-  private readonly key = new three.DirectionalLight(0xfff4e6, 2.2);
-  private readonly rim = new three.DirectionalLight(0xdde8ff, 0.9);
+  private readonly key = new three.DirectionalLight(0xfff4e6, 1.5);
+  private readonly rim = new three.DirectionalLight(0xdde8ff, 0.6);
   private readonly ground: three.Mesh;
   private readonly pickScene = new three.Scene();
   private readonly pickMesh: three.Mesh;
@@ -110,7 +110,7 @@ export class Scene {
     this.renderer.toneMapping = three.NeutralToneMapping;
     this.renderer.setClearColor(0, 0);
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = three.PCFSoftShadowMap;
+    this.renderer.shadowMap.type = three.VSMShadowMap;
     this.renderer.shadowMap.autoUpdate = false;
     this.canvas = this.renderer.domElement;
     this.uniforms = {
@@ -157,7 +157,8 @@ export class Scene {
     pmrem.dispose();
     this.key.castShadow = true;
     this.key.shadow.mapSize.set(1024, 1024);
-    this.key.shadow.radius = 6;
+    this.key.shadow.radius = 7;
+    this.key.shadow.blurSamples = 14;
     this.mesh.castShadow = this.mesh.receiveShadow = true;
     this.mesh.frustumCulled = this.pickMesh.frustumCulled = false;
     this.ground.receiveShadow = true;
@@ -338,8 +339,8 @@ export class Scene {
 
   setLight(strength: number): void {
     this.scene.environmentIntensity = 0.55 * strength;
-    this.key.intensity = 2.2 * strength;
-    this.rim.intensity = 0.9 * strength;
+    this.key.intensity = 1.5 * strength;
+    this.rim.intensity = 0.6 * strength;
     this.touch();
   }
 

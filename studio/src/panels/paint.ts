@@ -66,7 +66,7 @@ function clearButton(studio: Studio, brush: Brush, tool: "mask" | "size"): HTMLE
   clear.addEventListener("click", () => brush.clearMap(tool));
   const count = el("span", { class: "quiet-text" });
   studio.on("recipe", () => {
-    const strokes = brushStrokes(studio.recipe, maps[tool].attribute).length;
+    const strokes = brushStrokes(studio.recipe, maps[tool].attribute, 1).length;
     count.textContent = strokes ? `${strokes} stroke${strokes > 1 ? "s" : ""}` : "nothing painted yet";
     clear.disabled = strokes === 0;
   });
