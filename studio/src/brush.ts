@@ -62,7 +62,7 @@ export class Brush {
     host.addEventListener("pointercancel", (event) => this.up(event), { capture: true });
     host.addEventListener("pointerleave", () => this.hover(null));
     studio.on("shape", () => this.onShape());
-    studio.on("begun", () => this.showMap());
+    studio.on(["begun", "fine"], () => this.showMap());
     studio.on("recipe", () => this.pointer === null && this.showMap());
     studio.on("stage", () => this.onStage());
   }

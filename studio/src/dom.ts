@@ -21,6 +21,7 @@ export function el<K extends keyof HTMLElementTagNameMap>(
   return node;
 }
 
+/** Shapes of the icons; parts that may overlap stand between bars. */
 const paths: Record<string, string> = {
   play: "M7 5v14l11-7z",
   pause: "M7 5h4v14H7zM14 5h4v14h-4z",
@@ -28,7 +29,7 @@ const paths: Record<string, string> = {
   reset: "M12 5V2L7 6.5 12 11V8a5 5 0 1 1-5 5H4.5a7.5 7.5 0 1 0 7.5-8z",
   undo: "M9 6V2L3 8l6 6v-4h5a4 4 0 0 1 0 8H8v2h6a6 6 0 0 0 0-14z",
   redo: "M15 6V2l6 6-6 6v-4h-5a4 4 0 0 0 0 8h6v2h-6a6 6 0 0 1 0-14z",
-  orbit: "M12 3a9 4 0 0 1 9 9 9 4 0 0 1-9 9 9 4 0 0 1-9-9 9 9 0 0 1 9-9zm0 2a7 7 0 0 0-7 7c0 1.1 3.1 2 7 2s7-.9 7-2a7 7 0 0 0-7-7z",
+  orbit: "M12 3a9 9 0 1 1 0 18 9 9 0 0 1 0-18zm0 1.7a7.3 7.3 0 1 0 0 14.6 7.3 7.3 0 0 0 0-14.6z|M4 11.2h16v1.6H4z|M12 3.6c2.7 0 4.6 3.7 4.6 8.4s-1.9 8.4-4.6 8.4-4.6-3.7-4.6-8.4 1.9-8.4 4.6-8.4zm0 1.6c-1.6 0-3 3-3 6.8s1.4 6.8 3 6.8 3-3 3-6.8-1.4-6.8-3-6.8z",
   brush: "M20.7 3.3a1 1 0 0 0-1.4 0L9.5 13.1l1.9 1.9 9.8-9.8a1.3 1.3 0 0 0-.5-1.9zM8 14a3 3 0 0 0-3 3c0 1.5-1 2.3-2 2.6 1 .9 2.4 1.4 4 1.4a4 4 0 0 0 4-4z",
   eraser: "M15.5 3.5 3.9 15.1a2 2 0 0 0 0 2.8L7 21h6l8.1-8.1a2 2 0 0 0 0-2.8zM8 19l-2.7-2.5 4.2-4.2 4.7 4.7L12.2 19z",
   mask: "M12 3 4 6v6c0 4.5 3.4 7.8 8 9 4.6-1.2 8-4.5 8-9V6zm0 2.2v13.7c-3.6-1.2-6-3.7-6-6.9V7.4z",
@@ -48,19 +49,20 @@ const paths: Record<string, string> = {
   warning: "M12 3 2 20h20zm-1 6h2v5h-2zm0 6.5h2v2h-2z",
 };
 
-export type IconName = string;
-
-export function icon(name: IconName): SVGSVGElement {
+/** The icon of this name, or one of a shape that is given. */
+export function icon(name: string): SVGSVGElement {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-  const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
   assign(svg, { viewBox: "0 0 24 24", class: "icon", "aria-hidden": "true", focusable: "false" });
-  assign(path, { d: paths[name] ?? "", "fill-rule": "evenodd" });
-  svg.append(path);
+  for (const d of (paths[name] ?? name).split("|")) {
+    const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+    assign(path, { d, "fill-rule": "evenodd" });
+    svg.append(path);
+  }
   return svg;
 }
 
 /** A button of an icon, of a text, or of both; what an icon means is its label. */
-export function button(text: string, options: { icon?: IconName; label?: string; class?: string; keys?: string } = {}): HTMLButtonElement {
+export function button(text: string, options: { icon?: string; label?: string; class?: string; keys?: string } = {}): HTMLButtonElement {
   const node = el("button", { type: "button", class: options.class ?? null });
   if (options.icon) node.append(icon(options.icon));
   if (text) node.append(el("span", {}, text));
@@ -72,7 +74,7 @@ export function button(text: string, options: { icon?: IconName; label?: string;
   return node;
 }
 
-export function setIcon(node: Element, name: IconName): void {
+export function setIcon(node: Element, name: string): void {
   node.querySelector("svg")?.replaceWith(icon(name));
 }
 

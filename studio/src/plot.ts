@@ -11,6 +11,8 @@ export interface PlotOptions {
   lines: Line[];
   logY?: boolean;
   zeroLine?: boolean;
+  /** What lies far below zero is cut off, so that what grows is seen. */
+  clipBelow?: boolean;
   xLabel?: string;
   yLabel?: string;
   markX?: number | null;
@@ -77,6 +79,7 @@ export function plot(canvas: HTMLCanvasElement, options: PlotOptions): void {
   const logY = options.logY ?? false;
   const xs = rangeOf(coordinate(options.lines, logY, 0));
   const ys = rangeOf(coordinate(options.lines, logY, 1));
+  if (ys && options.clipBelow) ys.low = Math.max(ys.low, -Math.max(3 * ys.high, -0.15 * ys.low));
   const { clientWidth: width, clientHeight: height } = canvas;
   const bare = height < 60;
   const left = bare ? 1 : margin.left;
@@ -87,10 +90,19 @@ export function plot(canvas: HTMLCanvasElement, options: PlotOptions): void {
   const text = getComputedStyle(canvas).color;
   if (options.zeroLine && ys.low < 0 && ys.high > 0) line(context, [[left, py(0)], [width, py(0)]], text, 0.5);
   if (typeof options.markX === "number") line(context, [[px(options.markX), 0], [px(options.markX), height - bottom]], text, 0.5, [3, 3]);
+  context.save();
   for (const one of options.lines) {
+    if (options.clipBelow) clip(context, left, width, height - bottom);
     line(context, [...points(one, logY)].map(([x, y]): [number, number] => [px(x), py(y)]), one.color, 1.5);
   }
+  context.restore();
   if (!bare) axes(context, canvas, options, xs, ys, text);
+}
+
+function clip(context: CanvasRenderingContext2D, left: number, width: number, bottom: number): void {
+  context.beginPath();
+  context.rect(left, 0, width - left, bottom);
+  context.clip();
 }
 
 function line(context: CanvasRenderingContext2D, at: [number, number][], color: string, width: number, dash: number[] = []): void {
@@ -104,11 +116,12 @@ function line(context: CanvasRenderingContext2D, at: [number, number][], color: 
 }
 
 function axes(context: CanvasRenderingContext2D, canvas: HTMLCanvasElement, options: PlotOptions, xs: Range, ys: Range, text: string): void {
+  if (ys && options.clipBelow) ys.low = Math.max(ys.low, -Math.max(3 * ys.high, -0.15 * ys.low));
   const { clientWidth: width, clientHeight: height } = canvas;
   const bottom = height - margin.bottom;
   context.fillStyle = text;
   context.font = "10px system-ui, sans-serif";
-  const tick = (y: number): string => shortNumber(options.logY ? 10 ** y : y, 3);
+  const tick = (y: number): string => shortNumber(options.logY ? 10 ** y : Math.abs(y) < 1e-9 * (ys.high - ys.low) ? 0 : y, 3);
   context.textAlign = "right";
   context.fillText(tick(ys.high), margin.left - 5, margin.top + 5);
   context.fillText(tick(ys.low), margin.left - 5, bottom);

@@ -91,13 +91,15 @@ export class Scene {
   private readonly material = new three.MeshStandardMaterial({ roughness: 0.75, metalness: 0, side: three.DoubleSide });
   private readonly uniforms: Uniforms;
   private mesh: three.Mesh<three.BufferGeometry, three.MeshStandardMaterial>;
-  private readonly key = new three.DirectionalLight(0xfff4e6, 1.5);
+  private readonly key = new three.DirectionalLight(0xfff4e6, 1.25);
   private readonly rim = new three.DirectionalLight(0xdde8ff, 0.6);
   private readonly ground: three.Mesh;
   private readonly pickScene = new three.Scene();
   private readonly pickMesh: three.Mesh;
   private readonly pickMaterial: three.ShaderMaterial;
   private readonly pickTarget: three.WebGLRenderTarget;
+  /** The mesh on which it grows, where a finer one is shown. */
+  private coarse: three.BufferGeometry | null = null;
   private middle = new three.Vector3();
   private diagonal = 1;
   private up: "y" | "z" = "y";
@@ -153,7 +155,7 @@ export class Scene {
   private furnish(): void {
     const pmrem = new three.PMREMGenerator(this.renderer);
     this.scene.environment = pmrem.fromScene(new RoomEnvironment(), 0.04).texture;
-    this.scene.environmentIntensity = 0.55;
+    this.scene.environmentIntensity = 0.42;
     pmrem.dispose();
     this.key.castShadow = true;
     this.key.shadow.mapSize.set(1024, 1024);
@@ -264,8 +266,36 @@ export class Scene {
     this.touch();
   }
 
-  /** A new mesh; all arrays are taken as they are. */
+  /** A new mesh to grow on; all arrays are taken as they are. */
   setMesh(positions: Float32Array, normals: Float32Array, triangles: Uint32Array, colors: Uint8Array): void {
+    this.coarse?.dispose();
+    this.coarse = null;
+    this.mesh.geometry.dispose();
+    this.show(this.geometryOf(positions, normals, triangles, colors));
+    this.setTransparent(colors);
+  }
+
+  /** A finer mesh of a coat that stands still; it goes with the next colours of the one that it grows on. */
+  setFine(positions: Float32Array, normals: Float32Array, triangles: Uint32Array, colors: Uint8Array): void {
+    if (this.coarse) this.mesh.geometry.dispose();
+    else this.coarse = this.mesh.geometry;
+    this.show(this.geometryOf(positions, normals, triangles, colors));
+  }
+
+  private toCoarse(): void {
+    if (!this.coarse) return;
+    this.mesh.geometry.dispose();
+    this.show(this.coarse);
+    this.coarse = null;
+  }
+
+  private show(geometry: three.BufferGeometry): void {
+    this.mesh.geometry = this.pickMesh.geometry = geometry;
+    this.renderer.shadowMap.needsUpdate = true;
+    this.touch();
+  }
+
+  private geometryOf(positions: Float32Array, normals: Float32Array, triangles: Uint32Array, colors: Uint8Array): three.BufferGeometry {
     const geometry = new three.BufferGeometry();
     const dynamic = (attribute: three.BufferAttribute): three.BufferAttribute => attribute.setUsage(three.DynamicDrawUsage);
     geometry.setAttribute("position", dynamic(new three.BufferAttribute(positions, 3)));
@@ -273,11 +303,7 @@ export class Scene {
     geometry.setAttribute("coat", dynamic(new three.BufferAttribute(colors, 4, true)));
     geometry.setAttribute("painted", dynamic(new three.BufferAttribute(new Uint8Array(positions.length / 3), 1, true)));
     geometry.setIndex(new three.BufferAttribute(triangles, 1));
-    this.mesh.geometry.dispose();
-    this.mesh.geometry = this.pickMesh.geometry = geometry;
-    this.setTransparent(colors);
-    this.renderer.shadowMap.needsUpdate = true;
-    this.touch();
+    return geometry;
   }
 
   get positions(): Float32Array {
@@ -294,6 +320,7 @@ export class Scene {
   }
 
   setColors(colors: Uint8Array): void {
+    this.toCoarse();
     this.update("coat", colors);
   }
 
@@ -307,6 +334,7 @@ export class Scene {
   }
 
   movePositions(positions: Float32Array, normals: Float32Array): void {
+    this.toCoarse();
     this.update("position", positions);
     this.update("normal", normals);
     this.renderer.shadowMap.needsUpdate = true;
@@ -338,8 +366,8 @@ export class Scene {
   }
 
   setLight(strength: number): void {
-    this.scene.environmentIntensity = 0.55 * strength;
-    this.key.intensity = 1.5 * strength;
+    this.scene.environmentIntensity = 0.42 * strength;
+    this.key.intensity = 1.25 * strength;
     this.rim.intensity = 0.6 * strength;
     this.touch();
   }

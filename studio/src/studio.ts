@@ -11,7 +11,7 @@ import { changeBetween, stringValue, topValue, type Change } from "./recipe-text
 import { reducedMotion, type Scene } from "./scene";
 import { keepFile, keptFile, load, save, type Saved } from "./store";
 
-export type Topic = "ready" | "recipe" | "shape" | "begun" | "frame" | "stage" | "playing" | "busy" | "history" | "message" | "fault" | "tool";
+export type Topic = "ready" | "recipe" | "shape" | "begun" | "frame" | "stage" | "playing" | "busy" | "history" | "fine" | "message" | "fault" | "tool";
 
 export interface ShapeChoice {
   /** `builtin:NAME`, or `file:NUMBER` for a file of the user. */
@@ -28,6 +28,8 @@ export interface EditOptions {
 }
 
 export interface Series {
+  /** Steps of the stages before this one. */
+  earlier: number;
   time: number[];
   change: (number | null)[];
   ranges: Map<string, { low: (number | null)[]; high: (number | null)[] }>;
@@ -38,7 +40,7 @@ export const speeds = [0, 5, 12, 25, 50, 100, 200];
 const rank: Record<Change, number> = { none: 0, look: 1, keep: 2, restart: 3 };
 const longestSeries = 600;
 
-const newSeries = (): Series => ({ time: [], change: [], ranges: new Map() });
+const newSeries = (): Series => ({ earlier: 0, time: [], change: [], ranges: new Map() });
 const asError = (error: unknown): Error => (error instanceof Error ? error : new Error(String(error)));
 
 export class Studio {
@@ -76,6 +78,7 @@ export class Studio {
   private pending: Change = "none";
   private applying = false;
   private saveTimer = 0;
+  private refineTimer = 0;
 
   constructor(readonly scene: Scene) {}
 
@@ -277,6 +280,7 @@ export class Studio {
       const reply = await this.engine.ask("look", { recipe });
       this.scene.setColors(reply.blocks["colors"] as Uint8Array);
       this.scene.setTransparent(reply.blocks["colors"] as Uint8Array);
+      this.refineSoon();
       return this.settled();
     }
     this.setBusy(change === "keep" ? "" : "Laying the mesh");
@@ -301,13 +305,15 @@ export class Studio {
     this.scene.setMesh(positions as Float32Array, normals as Float32Array, triangles as Uint32Array, colors as Uint8Array);
     this.begun = reply;
     this.grown = recipe;
-    if (fresh) this.series = newSeries();
+    if (fresh) {
+      this.series = newSeries();
+      this.progress = null;
+    }
     this.settled();
     if (reply.warnings.length) this.say(reply.warnings.join(" "));
     this.follow(reply);
-    if (fresh) this.learnRest(reply.stage);
     this.emit("begun");
-    this.emit("stage");
+    if (!fresh) this.emit("stage");
   }
 
   private learnRest(stage: number): void {
@@ -389,7 +395,27 @@ export class Studio {
     this.grace = 0;
     this.playing = false;
     if (this.progress?.status === "failed") this.say(this.progress.message, true);
+    else void this.refine();
     this.emit("playing");
+  }
+
+  private refineSoon(): void {
+    clearTimeout(this.refineTimer);
+    if (this.playing || !this.progress || this.progress.running) return;
+    this.refineTimer = window.setTimeout(() => void this.refine(), 400);
+  }
+
+  /** A coat that stands still is shown as finely as files get it. */
+  private async refine(): Promise<void> {
+    const coat = this.begun;
+    try {
+      const { positions, normals, triangles, colors } = (await this.engine.ask("fine")).blocks;
+      if (coat !== this.begun || this.playing || this.applying) return;
+      this.scene.setFine(positions as Float32Array, normals as Float32Array, triangles as Uint32Array, colors as Uint8Array);
+      this.emit("fine");
+    } catch {
+      // What is there is fine enough.
+    }
   }
 
   private async advance(request: Record<string, number>): Promise<void> {
@@ -407,6 +433,7 @@ export class Studio {
 
   private follow(reply: Progress): void {
     const moved = this.progress?.stage !== reply.stage;
+    if (moved && this.progress) this.series.earlier += this.progress.steps;
     this.progress = reply;
     this.note(reply);
     if (moved) {
@@ -417,8 +444,8 @@ export class Studio {
   }
 
   private note(reply: Progress): void {
-    const series = this.series;
-    const index = series.time.push(reply.steps) - 1;
+    const { series } = this;
+    const index = series.time.push(series.earlier + reply.steps) - 1;
     series.change.push(reply.change);
     for (const { species, low, high } of reply.range) {
       const range = series.ranges.get(species) ?? { low: [], high: [] };
@@ -490,7 +517,8 @@ export class Studio {
     try {
       const reply = await this.engine.ask<Begun>("restore_state", { state });
       this.accept(reply, reply.recipe ?? this.recipe, true);
-      if (reply.recipe !== undefined && reply.recipe !== this.recipe) await this.grow(changeBetween(reply.recipe, this.recipe));
+      const change = reply.recipe === undefined ? "look" : changeBetween(reply.recipe, this.recipe);
+      if (change !== "none") await this.grow(change);
       return true;
     } catch {
       return false;

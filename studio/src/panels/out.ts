@@ -7,7 +7,7 @@ import type { Studio } from "../studio";
 
 const meanings: Record<string, string> = {
   ".glb": "Blender, game engines, the web",
-  ".ply": "points and triangles with colours and fields",
+  ".ply": "colours and fields",
   ".obj": "nearly every program",
   ".stl": "shape only, for printers",
   ".vtp": "ParaView, with all fields",
@@ -67,7 +67,7 @@ function meshPart(studio: Studio): HTMLElement {
 function picturePart(studio: Studio): HTMLElement {
   const told = note();
   const png = button("Picture", { icon: "camera", class: "row" });
-  png.append(el("small", {}, "PNG, twice the size on the screen"));
+  png.append(el("small", {}, "PNG, twice as large"));
   png.addEventListener("click", () => {
     studio.scene
       .picture(2)
@@ -75,7 +75,7 @@ function picturePart(studio: Studio): HTMLElement {
       .catch((error: unknown) => told.say(String(error), true));
   });
   const clip = button("Record a clip", { icon: "record", class: "row" });
-  clip.append(el("small", {}, "WebM of what the view shows"));
+  clip.append(el("small", {}, "WebM of the view"));
   let running: { stop: () => Promise<Blob> } | null = null;
   clip.addEventListener("click", () => {
     if (running) {
@@ -122,7 +122,7 @@ function sharePart(studio: Studio): HTMLElement {
   embed.append(el("small", {}, "for a web page"));
   embed.addEventListener("click", () => void copy(true));
   const recipe = button("Save the recipe", { icon: "download", class: "row" });
-  recipe.append(el("small", {}, "TOML, as the command line takes it"));
+  recipe.append(el("small", {}, "for the command line"));
   recipe.addEventListener("click", () => download(`${studio.fileName}.toml`, studio.recipe, "text/plain"));
   return el("div", {}, el("h2", {}, "Recipe and link"), el("div", { class: "rows" }, recipe, link, embed), field, told.node);
 }

@@ -94,7 +94,7 @@ class Readout {
     const lengths = el("p", { class: "quiet-text" }, "Lengths and times are the model's own.");
     this.words.replaceChildren(el("p", { class: "verdict" }, analysis.verdict), facts, conditions, el("ul", { class: "findings" }, ...thresholds), lengths);
     if (known) {
-      plot(this.dispersion.canvas, { lines: [{ x: wavelengths, y: growth_rates, color: speciesColors[0]! }], zeroLine: true, markX: analysis.wavelength, xLabel: "wavelength" });
+      plot(this.dispersion.canvas, { lines: [{ x: wavelengths, y: growth_rates, color: speciesColors[0]! }], zeroLine: true, clipBelow: true, markX: analysis.wavelength, xLabel: "wavelength" });
     }
   }
 }
