@@ -73,7 +73,8 @@ export async function pressKeys(tab, key, ...modifiers) {
 
 /** Presses the button that a reader would call by this name. */
 export async function press(tab, name) {
-  const found = await tab.waitForSelector(`::-p-aria([name="${name}"][role="button"])`, { timeout: 10000 });
+  const find = (wanted) => [...document.querySelectorAll("button")].find((b) => (b.getAttribute("aria-label") ?? b.querySelector("span")?.textContent) === wanted && b.offsetParent);
+  const found = await tab.waitForFunction(find, { timeout: 10000 }, name);
   await found.click();
 }
 

@@ -31,7 +31,7 @@ class Editor {
   private readonly gutter = el("pre", { class: "gutter", "aria-hidden": "true" });
   private readonly mark = el("div", { class: "fault-line", hidden: true });
   private readonly fault = el("p", { class: "fault", id: "recipe-fault", role: "status" });
-  private readonly growButton = button("Grow this text", { class: "primary small", label: "Grow this text", keys: "Ctrl+Enter" });
+  private readonly growButton = button("Grow this text", { class: "primary small" });
   private timer = 0;
   private asked = 0;
   private typed = false;
@@ -41,6 +41,7 @@ class Editor {
     const frame = el("div", { class: "editor" }, this.gutter, sheet);
     const save = button("Save as file", { icon: "download", class: "small" });
     save.addEventListener("click", () => download(`${studio.fileName}.toml`, this.area.value, "text/plain"));
+    this.growButton.title = "Ctrl+Enter";
     this.growButton.addEventListener("click", () => this.grow());
     this.node = el("div", { class: "panel recipe" }, frame, el("div", { class: "editor-foot" }, this.fault, el("div", { class: "inline" }, this.growButton, save)));
     this.area.addEventListener("input", () => this.onInput());
