@@ -1,0 +1,42 @@
+# The library as WebAssembly, by Debian's emscripten: the preset "wasm", tools/wasm.sh. Libraries that exist for this
+# machine alone are replaced by such that are headers (cmake/wasm/), or what they do is refused by name (Draco,
+# meshoptimizer); Embree's pictures are left to the page.
+
+# Headers of others stand between those of this machine's own C library, which must not be seen: links to just these.
+set(wasm_include ${PROJECT_BINARY_DIR}/include)
+file(MAKE_DIRECTORY ${wasm_include})
+foreach(name range concepts meta std fast_float  # cmake/wasm/standard.h
+        tiny_gltf.h nlohmann toml++ pugixml.hpp pugiconfig.hpp)
+  if(NOT EXISTS /usr/include/${name})
+    message(FATAL_ERROR "/usr/include/${name} is missing; sh tools/wasm.sh installs what this build needs")
+  endif()
+  file(CREATE_LINK /usr/include/${name} ${wasm_include}/${name} SYMBOLIC)
+endforeach()
+
+# What GCC and a 64-bit machine see is not said again: numbers of 64 bits index memory of 32, which holds what there is.
+target_compile_options(pelage_flags INTERFACE -fexceptions
+  -Wno-unknown-warning-option -Wno-shorten-64-to-32 -Wno-unused-const-variable -Wno-unused-private-field)
+
+target_include_directories(pelage_core SYSTEM PUBLIC ${wasm_include})
+target_precompile_headers(pelage_core PRIVATE ${PROJECT_SOURCE_DIR}/cmake/wasm/standard.h)
+target_sources(pelage_core PRIVATE cmake/wasm/standard.cpp)
+
+pelage_library(pelage_io io recipe)
+get_target_property(sources pelage_io SOURCES)
+list(FILTER sources EXCLUDE REGEX "src/io/(zlib|png_reader|jpeg_reader|sha256)\\.cpp$")
+set_property(TARGET pelage_io PROPERTY SOURCES ${sources})
+target_sources(pelage_io PRIVATE
+  cmake/wasm/zlib.cpp cmake/wasm/image_readers.cpp cmake/wasm/sha256.cpp cmake/wasm/tiny_gltf.cpp)
+target_include_directories(pelage_io SYSTEM PRIVATE /usr/include/stb)
+target_compile_definitions(pelage_io PRIVATE PUGIXML_HEADER_ONLY TOML_HEADER_ONLY=1
+  TINYGLTF_NO_STB_IMAGE TINYGLTF_NO_STB_IMAGE_WRITE TINYGLTF_NO_EXTERNAL_IMAGE TINYGLTF_NO_INCLUDE_STB_IMAGE
+  TINYGLTF_NO_INCLUDE_STB_IMAGE_WRITE)
+target_link_libraries(pelage_io PUBLIC pelage_core)
+
+pelage_library(pelage_look print look)
+target_include_directories(pelage_look SYSTEM PRIVATE /usr/include/stb)
+target_link_libraries(pelage_look PUBLIC pelage_core)
+
+pelage_library(pelage gridgen solid measure unwrap catalog)
+target_link_libraries(pelage PUBLIC pelage_look pelage_io)
+include(cmake/embedded.cmake)
