@@ -15,6 +15,8 @@ find_path(LIBDEFLATE_INCLUDE_DIR libdeflate.h REQUIRED)
 find_library(LIBDEFLATE_LIBRARY deflate REQUIRED)
 find_path(LIBMD_INCLUDE_DIR sha2.h REQUIRED)
 find_library(LIBMD_LIBRARY md REQUIRED)
+find_path(HTTPLIB_INCLUDE_DIR httplib.h REQUIRED)
+find_library(HTTPLIB_LIBRARY cpp-httplib REQUIRED)
 find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
 find_library(TINYGLTF_LIBRARY tinygltf REQUIRED)
 option(PELAGE_DRACO "Read glTF that Draco compressed, where its library is found" ON)
@@ -63,6 +65,10 @@ target_link_libraries(pelage_look PUBLIC pelage_core)
 pelage_library(pelage gridgen solid measure unwrap catalog verify)  # grids for regions; volumes; patterns in numbers; atlases; from names to components; the interface of include/pelage
 target_link_libraries(pelage PUBLIC pelage_look pelage_io)
 
+pelage_library(pelage_studio studio)  # the engine behind the studio's page
+target_compile_definitions(pelage_studio PRIVATE PELAGE_VERSION="${PROJECT_VERSION}")
+target_link_libraries(pelage_studio PUBLIC pelage $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)
+
 pelage_library(pelage_render render)  # pictures of surfaces
 target_link_libraries(pelage_render PUBLIC pelage_core PRIVATE embree)
 
@@ -79,8 +85,9 @@ if(cli_sources)
     set_target_properties(pelage_commands PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 9)
   endif()
   target_include_directories(pelage_commands PUBLIC src apps/cli)
+  target_include_directories(pelage_commands SYSTEM PRIVATE ${HTTPLIB_INCLUDE_DIR})
   target_compile_definitions(pelage_commands PUBLIC PELAGE_VERSION="${PROJECT_VERSION}")
-  target_link_libraries(pelage_commands PUBLIC pelage pelage_render CLI11::CLI11 nlohmann_json::nlohmann_json Eigen3::Eigen pelage_flags)
+  target_link_libraries(pelage_commands PUBLIC pelage pelage_render pelage_studio ${HTTPLIB_LIBRARY} CLI11::CLI11 nlohmann_json::nlohmann_json Eigen3::Eigen pelage_flags)
   add_executable(pelage_cli apps/cli/main.cpp)
   set_target_properties(pelage_cli PROPERTIES OUTPUT_NAME pelage)
   target_link_libraries(pelage_cli PRIVATE pelage_commands)

@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-ORDER = "base < linalg shape react recipe < discretise io print < time fair direction look gridgen solid measure unwrap < run < catalog < verify render < apps"
+ORDER = "base < linalg shape react recipe < discretise io print < time fair direction look gridgen solid measure unwrap < run < catalog < verify render studio < apps"
 RANK = {layer: rank for rank, group in enumerate(ORDER.split("<")) for layer in group.split()}
 
 # The public headers belong to the layer that implements them.
@@ -26,7 +26,7 @@ OUTSIDE = {"tbb/": ["src/base/parallel.cpp"], "sanitizer/": ["src/base/parallel.
            "libdeflate.h": ["src/io/zlib.cpp"],
            "pugixml.hpp": ["src/io/vtk_document.", "src/io/record_in_file.cpp"], "stb_truetype.h": ["src/look/text.cpp"], "embree3/": ["src/render/"],
            "malloc.h": ["apps/cli/main.cpp"], "unistd.h": ["src/io/", "apps/cli/"], "fcntl.h": ["src/io/"],
-           "sys/": ["src/io/temporary_file.cpp", "apps/cli/"], "spawn.h": ["apps/cli/"], "CLI/": ["apps/cli/"], "nlohmann/": ["apps/cli/", "src/io/gltf_", "src/io/record.cpp"],
+           "sys/": ["src/io/temporary_file.cpp", "apps/cli/"], "spawn.h": ["apps/cli/"], "CLI/": ["apps/cli/"], "httplib.h": ["apps/cli/studio_server.cpp"], "nlohmann/": ["apps/cli/", "src/studio/", "src/io/gltf_", "src/io/record.cpp"],
            "sha2.h": ["src/io/sha256.cpp"], "draco/": ["src/io/gltf_draco.cpp"], "meshoptimizer.h": ["src/io/gltf_meshoptimizer.cpp", "src/io/gltf_compressor.cpp"]}
 
 

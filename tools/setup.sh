@@ -7,7 +7,7 @@ packages="
   g++ cmake ninja-build python3
   libeigen3-dev libtbb-dev libembree-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libstb-dev libdeflate-dev libmd-dev libpugixml-dev
   libspng-dev libturbojpeg0-dev fonts-dejavu-core
-  libcli11-dev libtomlplusplus-dev nlohmann-json3-dev
+  libcli11-dev libcpp-httplib-dev libtomlplusplus-dev nlohmann-json3-dev
   libgtest-dev libosd-dev $*"
 
 missing=""

@@ -41,6 +41,7 @@ Command add_again(CLI::App& parent);
 Command add_explain(CLI::App& parent);
 Command add_sheet(CLI::App& parent);
 Command add_render(CLI::App& parent);
+Command add_studio(CLI::App& parent);
 Command add_unwrap(CLI::App& parent);
 Command add_verify(CLI::App& parent);
 

@@ -51,7 +51,7 @@ std::vector<Command> add_commands(CLI::App& app, CommonOptions& common) {
       add_grow(app),     add_resume(app),  add_again(app),  add_explain(app), add_check(app), add_models(app),
       add_formulas(app), add_analyse(app), add_map(app),    add_gallery(app), add_sheet(app), add_figures(app),
       add_recipes(app),  add_fair(app),    add_field(app),  add_compare(app), add_grid(app),  add_cells(app),
-      add_measure(app),  add_unwrap(app),  add_render(app), add_verify(app)};
+      add_measure(app),  add_unwrap(app),  add_render(app), add_studio(app),  add_verify(app)};
   add_output_options(commands, common);
   add_allow_outside(app, common.outside);
   return commands;

@@ -98,7 +98,7 @@ int grow_nested(Run& run, const Progress& progress) {
   if (first.summary().status == RunStatus::failed) return 0;
   std::vector<Vector> fields;
   for (const Vector& u : first.coefficients()) fields.push_back(continued(u, *coarse, *grid));
-  run.start_from(std::move(fields));
+  run.set_coefficients(std::move(fields));
   return levels + 1;
 }
 

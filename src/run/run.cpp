@@ -85,9 +85,23 @@ void refuse(const StageProgram& p, const std::string& why, RunSummary& summary) 
                     "\" here: " + why + "; leave the stepper out";
 }
 
+bool same_species(const Model& a, const Model& b) {
+  if (a.species_count() != b.species_count()) return false;
+  for (std::size_t i = 0; i < a.species_count(); ++i)
+    if (a.species_name(i) != b.species_name(i)) return false;
+  return true;
+}
+
 double magnitude(const Vector& u) { return u.size() > 0 ? std::max(std::abs(minimum(u)), std::abs(maximum(u))) : 0; }
 
 }  // namespace
+
+/// Where a stage ends: at a model time, after so many steps, at rest (StageProgram).
+struct Run::Stop {
+  double until = 0;
+  std::optional<std::int64_t> steps;
+  double stationary = 0;
+};
 
 /// A stage in progress.
 struct Run::Stage {
@@ -99,6 +113,7 @@ struct Run::Stage {
   std::vector<Vector> shown;            ///< state.now with the species that follow; empty where none does
   std::vector<double> first_magnitude;  ///< per species
   double step = 0;
+  Stop stop;
   RunSummary summary;
 };
 
@@ -148,9 +163,10 @@ std::unique_ptr<Run::Stage> Run::begin(std::size_t index, const World& world,
                                              {},
                                              std::move(first),
                                              step,
+                                             {p.until, p.steps, p.stationary},
                                              {}});
   stage->summary.step = step;
-  check_stop(p, world, *stage);
+  check_stop(world, *stage);
   return stage;
 }
 
@@ -184,8 +200,11 @@ const System& Run::system() const { return now_->equations.system(); }
 const std::vector<Vector>& Run::coefficients() const { return now_->shown.empty() ? now_->state.now : now_->shown; }
 std::vector<Vector> Run::initial() const { return now_->equations.initial(); }
 
-void Run::start_from(std::vector<Vector> coefficients) {
+void Run::set_coefficients(std::vector<Vector> coefficients) {
   now_->state.now = std::move(coefficients);
+  now_->state.past.clear();
+  now_->state.past_steps.clear();
+  now_->state.past_rates.clear();
   for (std::size_t i = 0; i < now_->state.now.size(); ++i) {
     Vector& u = now_->state.now[i];
     now_->first_magnitude[i] = std::max(now_->first_magnitude[i], magnitude(u));
@@ -193,14 +212,40 @@ void Run::start_from(std::vector<Vector> coefficients) {
   show_followers();
 }
 
+void Run::go_on() {
+  if (!done() || now_->summary.status == RunStatus::failed) return;
+  now_->stop = {now_->state.time + stage_program().until, {}, 0};
+  now_->summary.status = RunStatus::running;
+}
+
+bool Run::take_over(const Run& other) {
+  if (other.space().unknowns() != space().unknowns() || other.world_.surface() || world_.surface()) return false;
+  if (other.program_->stages.size() != program_->stages.size()) return false;
+  for (std::size_t k = 0; k <= other.stage_; ++k)
+    if (!same_species(other.program_->stages[k].model, program_->stages[k].model)) return false;
+  std::vector<std::string> warnings = program_->warnings;
+  std::unique_ptr<Stage> stage = begin(other.stage_, world_, other.finished_, warnings);
+  stage->state.time = stage->summary.time = other.now_->state.time;
+  stage->state.step = stage->summary.steps = other.now_->state.step;
+  stage_ = other.stage_;
+  finished_ = other.finished_;
+  now_ = std::move(stage);
+  warnings_ = std::move(warnings);
+  set_coefficients(other.now_->state.now);
+  check_stop(world_, *now_);
+  return true;
+}
+
 double Run::stage_fraction() const {
   // Rest may come earlier or later than it did when it was measured.
   constexpr double nearly_done = 0.98;
   const StageProgram& p = stage_program();
+  const Stop& stop = now_->stop;
   const RunSummary& summary = now_->summary;
   if (summary.status != RunStatus::running) return 1;
-  double fraction = p.until > 0 ? now_->state.time / p.until : 0;
-  if (p.steps) fraction = std::max(fraction, static_cast<double>(now_->state.step) / static_cast<double>(*p.steps));
+  double fraction = stop.until > 0 ? now_->state.time / stop.until : 0;
+  if (stop.steps)
+    fraction = std::max(fraction, static_cast<double>(now_->state.step) / static_cast<double>(*stop.steps));
   if (p.iterations)
     fraction = std::max(fraction, std::min(nearly_done, static_cast<double>(summary.iterations) / *p.iterations));
   return std::min(1.0, fraction);
@@ -222,7 +267,7 @@ double Run::fraction() const {
 
 /// The last step is cut to end on time; a rest below a thousandth of a step is joined to it.
 double Run::next_step() const {
-  const double rest = stage_program().until - now_->state.time;
+  const double rest = now_->stop.until - now_->state.time;
   return rest < now_->step * 1.001 ? rest : now_->step;
 }
 
@@ -343,25 +388,26 @@ void Run::accept(const StepReport& report, double dt) {
   if (p.adaptive() && now_->state.step > 1)
     now_->step = next_adaptive_step(p, step_tolerance(), now_->step, report.error);
   summary.step = now_->step;
-  check_stop(p, world_, *now_);
+  check_stop(world_, *now_);
 }
 
-void Run::check_stop(const StageProgram& p, const World& world, Stage& stage) {
+void Run::check_stop(const World& world, Stage& stage) {
+  const Stop& stop = stage.stop;
   RunSummary& summary = stage.summary;
-  if (p.steps && stage.state.step >= *p.steps)
+  if (stop.steps && stage.state.step >= *stop.steps)
     summary.status = RunStatus::steps_reached;
-  else if (stage.state.time >= p.until)
+  else if (stage.state.time >= stop.until)
     summary.status = RunStatus::time_reached;
   else if (world.surface() && world.surface()->moving())
     summary.status = RunStatus::running;
-  else if (stage.state.step > 0 && p.stationary > 0 && summary.change < p.stationary)
+  else if (stage.state.step > 0 && stop.stationary > 0 && summary.change < stop.stationary)
     summary.status = RunStatus::stationary;
 }
 
 /// Whether steps of the size that the stepper found will not reach the end in any sensible time.
 bool Run::takes_too_long() const {
   const StageProgram& p = stage_program();
-  const double suggested = p.until / p.suggested_step;
+  const double suggested = now_->stop.until / p.suggested_step;
   return p.adaptive() && now_->summary.status == RunStatus::running &&
          static_cast<double>(now_->state.step) > most_steps * suggested + few_steps;
 }
@@ -628,7 +674,7 @@ void Run::restore(const std::string& bytes) {
   stage->summary.steps = stage->state.step;
   stage->summary.step = s.step;
   stage->summary.change = s.change;
-  check_stop(program_->stages[s.stage], world, *stage);
+  check_stop(world, *stage);
   world_ = std::move(world);
   stage_ = s.stage;
   finished_ = std::move(s.finished);

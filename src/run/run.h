@@ -61,8 +61,14 @@ class Run {
   /// The fields of all stages, to be dressed; of earlier ones "STAGE.SPECIES".
   CoatFields fields() const;
 
-  /// Replaces the initial state of a stage that has made no step by these coefficients, one field per species.
-  void start_from(std::vector<Vector> coefficients);
+  /// Replaces the state of the stage by these coefficients, one field per species: steps begin anew from there, at the
+  /// time that it is.
+  void set_coefficients(std::vector<Vector> coefficients);
+  /// Lets a run that has come to its end go on: for as long again as its last stage was meant to take, also at rest.
+  void go_on();
+  /// Goes on from where another run of the same stages stands, on as many unknowns and with species of the same names:
+  /// what may differ are parameters. False, and nothing happens, where there are others.
+  bool take_over(const Run& other);
 
   /// Everything that changes, as bytes: a run of the same program that restores it continues with the same bits, on any
   /// machine that rounds the same.
@@ -73,6 +79,7 @@ class Run {
 
  private:
   struct Stage;
+  struct Stop;
   struct Snapshot;
   std::unique_ptr<Stage> begin(std::size_t number, const World& world, const std::vector<FinishedStage>& finished,
                                std::vector<std::string>& warnings) const;
@@ -91,7 +98,7 @@ class Run {
   bool takes_too_long() const;
   void fail(const std::string& reason, const std::optional<Runaway>& runaway);
   std::string remedy(const Runaway& at) const;
-  static void check_stop(const StageProgram& program, const World& world, Stage& stage);
+  static void check_stop(const World& world, Stage& stage);
 
   std::shared_ptr<const Program> program_;
   World world_;
