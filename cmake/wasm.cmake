@@ -6,7 +6,7 @@
 set(wasm_include ${PROJECT_BINARY_DIR}/include)
 file(MAKE_DIRECTORY ${wasm_include})
 foreach(name range concepts meta std fast_float  # cmake/wasm/standard.h
-        tiny_gltf.h nlohmann toml++ pugixml.hpp pugiconfig.hpp)
+        tiny_gltf.h nlohmann toml++)
   if(NOT EXISTS /usr/include/${name})
     message(FATAL_ERROR "/usr/include/${name} is missing; sh tools/wasm.sh installs what this build needs")
   endif()
@@ -21,14 +21,16 @@ target_include_directories(pelage_core SYSTEM PUBLIC ${wasm_include})
 target_precompile_headers(pelage_core PRIVATE ${PROJECT_SOURCE_DIR}/cmake/wasm/standard.h)
 target_sources(pelage_core PRIVATE cmake/wasm/standard.cpp)
 
+# Files and texts: nobody asks here for records and journals, and XML is read by no library that is headers alone.
 pelage_library(pelage_io io recipe)
 get_target_property(sources pelage_io SOURCES)
-list(FILTER sources EXCLUDE REGEX "src/io/(zlib|png_reader|jpeg_reader|sha256)\\.cpp$")
+list(FILTER sources EXCLUDE REGEX
+  "src/io/(zlib|png_reader|jpeg_reader|sha256|journal|record_in_file|vtk_document|vtk_attributes|vtk_grid_reader|vtp_reader|vtu_reader)\\.cpp$")
 set_property(TARGET pelage_io PROPERTY SOURCES ${sources})
 target_sources(pelage_io PRIVATE
-  cmake/wasm/zlib.cpp cmake/wasm/image_readers.cpp cmake/wasm/sha256.cpp cmake/wasm/tiny_gltf.cpp)
+  cmake/wasm/zlib.cpp cmake/wasm/image_readers.cpp cmake/wasm/left_out.cpp cmake/wasm/tiny_gltf.cpp)
 target_include_directories(pelage_io SYSTEM PRIVATE /usr/include/stb)
-target_compile_definitions(pelage_io PRIVATE PUGIXML_HEADER_ONLY TOML_HEADER_ONLY=1
+target_compile_definitions(pelage_io PRIVATE TOML_HEADER_ONLY=1
   TINYGLTF_NO_STB_IMAGE TINYGLTF_NO_STB_IMAGE_WRITE TINYGLTF_NO_EXTERNAL_IMAGE TINYGLTF_NO_INCLUDE_STB_IMAGE
   TINYGLTF_NO_INCLUDE_STB_IMAGE_WRITE)
 target_link_libraries(pelage_io PUBLIC pelage_core)
@@ -40,3 +42,26 @@ target_link_libraries(pelage_look PUBLIC pelage_core)
 pelage_library(pelage gridgen solid measure unwrap catalog)
 target_link_libraries(pelage PUBLIC pelage_look pelage_io)
 include(cmake/embedded.cmake)
+
+pelage_library(pelage_studio studio)
+target_compile_definitions(pelage_studio PRIVATE PELAGE_VERSION="${PROJECT_VERSION}")
+target_link_libraries(pelage_studio PUBLIC pelage)
+
+# One script that makes the module, and the module beside it; the page's worker loads them (studio/engine-worker.js).
+function(wasm_program name output)
+  add_executable(${name} ${ARGN})
+  set_target_properties(${name} PROPERTIES OUTPUT_NAME ${output}
+    RULE_LAUNCH_LINK "${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs")  # Debian's acorn, also for another node
+  target_precompile_headers(${name} REUSE_FROM pelage_core)
+  target_include_directories(${name} PRIVATE src)
+  target_link_libraries(${name} PRIVATE pelage_studio pelage_flags Eigen3::Eigen)
+  target_link_options(${name} PRIVATE -fexceptions -sMODULARIZE=1 -sENVIRONMENT=worker,node -sALLOW_MEMORY_GROWTH=1
+    -sMAXIMUM_MEMORY=4GB)
+endfunction()
+
+wasm_program(pelage_wasm pelage-engine apps/studio/wasm.cpp)
+target_link_options(pelage_wasm PRIVATE --no-entry -sEXPORT_NAME=createPelageEngine -sFILESYSTEM=0)
+configure_file(studio/engine-worker.js ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/engine-worker.js COPYONLY)
+
+wasm_program(wasm_cases wasm-cases tests/wasm/cases.cpp)  # tests/wasm/compare.mjs
+target_link_options(wasm_cases PRIVATE -sEXPORT_NAME=createCases -sEXIT_RUNTIME=1 -sFILESYSTEM=0)

@@ -1,5 +1,5 @@
-// The studio's engine as WebAssembly: what studio/engine-worker.js calls. One request at a time: room for its bytes, the
-// answer, then the reply's bytes.
+// The studio's engine as WebAssembly: what studio/engine-worker.js calls. One request at a time: room for its bytes,
+// the answer, then the reply's bytes.
 
 #include <cstddef>
 #include <memory>
@@ -14,8 +14,14 @@ namespace {
 
 std::string request, reply;
 
+/// Of the 4 GB that WebAssembly can address, what a coat may take: the rest is for replies and what is in use.
+constexpr double most_memory = 3e9;
+
 pelage::StudioEngine& engine() {
-  static pelage::StudioEngine one("wasm");
+  static pelage::StudioEngine one = [] {
+    pelage::limit_memory(most_memory);
+    return pelage::StudioEngine("wasm");
+  }();
   return one;
 }
 

@@ -1,5 +1,5 @@
-// src/io/png_reader.h and src/io/jpeg_reader.h by stb_image, which is a header alone. It is made for files that one knows;
-// here the sandbox of WebAssembly is around it.
+// src/io/png_reader.h and src/io/jpeg_reader.h by stb_image, which is a header alone. It is made for files that one
+// knows; here the sandbox of WebAssembly is around it.
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_NO_STDIO
@@ -53,9 +53,8 @@ StoredImage read(std::string_view bytes, const std::string& path, double least_b
   const int size = static_cast<int>(bytes.size());
   int x = 0, y = 0, stored = 0;
   image.samples =
-      image.deep
-          ? samples_of(stbi_load_16_from_memory(data(bytes), size, &x, &y, &stored, image.channels), image, path)
-          : samples_of(stbi_load_from_memory(data(bytes), size, &x, &y, &stored, image.channels), image, path);
+      image.deep ? samples_of(stbi_load_16_from_memory(data(bytes), size, &x, &y, &stored, image.channels), image, path)
+                 : samples_of(stbi_load_from_memory(data(bytes), size, &x, &y, &stored, image.channels), image, path);
   return image;
 }
 

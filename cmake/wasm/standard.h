@@ -1,7 +1,8 @@
 #pragma once
-// What the standard library of Debian 12's emscripten (libc++ 13) lacks of C++20, for that build alone: cmake/wasm.cmake
-// includes it before every source. The algorithms on ranges are those of range-v3, whose author wrote the proposal for
-// std::ranges. Adding to namespace std is not ours to do; a compiler with libc++ 16 or later needs none of this.
+// What the standard library of Debian 12's emscripten (libc++ 13) lacks of C++20, for that build alone:
+// cmake/wasm.cmake includes it before every source. The algorithms on ranges are those of range-v3, whose author wrote
+// the proposal for std::ranges. Adding to namespace std is not ours to do; a compiler with libc++ 16 or later needs
+// none of this.
 
 #include <array>
 #include <atomic>
@@ -72,16 +73,20 @@ using ::ranges::transform;
 using ::ranges::upper_bound;
 }  // namespace ranges
 
-template <class T, size_t N>
-constexpr auto operator<=>(const array<T, N>& a, const array<T, N>& b) {
-  for (size_t i = 0; i < N; ++i)
-    if (const auto order = a[i] <=> b[i]; order != 0) return order;
-  return T{} <=> T{};
-}
 template <class T>
-auto operator<=>(const vector<T>& a, const vector<T>& b) {
+using order_of = decltype(declval<const T&>() <=> declval<const T&>());
+
+template <class T, size_t N>
+constexpr order_of<T> operator<=>(const array<T, N>& a, const array<T, N>& b) {
+  for (size_t i = 0; i < N; ++i)
+    if (const order_of<T> order = a[i] <=> b[i]; order != 0) return order;
+  return strong_ordering::equal;
+}
+
+template <class T>
+order_of<T> operator<=>(const vector<T>& a, const vector<T>& b) {
   for (size_t i = 0; i < a.size() && i < b.size(); ++i)
-    if (const auto order = a[i] <=> b[i]; order != 0) return order;
+    if (const order_of<T> order = a[i] <=> b[i]; order != 0) return order;
   return a.size() <=> b.size();
 }
 

@@ -1,15 +1,18 @@
-// Small runs, numbers and files, each as a line of text. Built natively and as WebAssembly; tests/wasm/compare.mjs holds
-// the two against each other. Fields are printed with all digits.
+// Small runs, numbers and files, each as a line of text. Built natively and as WebAssembly; tests/wasm/compare.mjs
+// holds the two against each other. Fields are printed with all digits.
 //   cases        the cases
 //   cases time   milliseconds of a step
 #include <pelage/analyse.h>
 #include <pelage/grow.h>
 #include <pelage/io.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
-#include <functional>
 #include <iostream>
+#include <limits>
 #include <string>
 
 namespace {
@@ -38,8 +41,7 @@ void run(const char* name, const char* shape, const std::string& text, int steps
   const pelage::ShapeFile file = pelage::read_shape(shape);
   pelage::Growth growth(file.mesh, recipe);
   while (!growth.done()) growth.advance(50);
-  for (const pelage::Growth::Field& field : growth.fields())
-    print(std::string(name) + ":" + field.name, field.values);
+  for (const pelage::Growth::Field& field : growth.fields()) print(std::string(name) + ":" + field.name, field.values);
   const pelage::TriangleMesh coat = growth.dress();
   for (const pelage::Point& p : {coat.points.front(), coat.points.back()})
     print(std::string(name) + ":place", std::vector<double>{p[0], p[1], p[2]});
@@ -53,9 +55,38 @@ void run(const char* name, const char* shape, const std::string& text, int steps
   std::fflush(stdout);
 }
 
+/// Numbers as text and back: powers of two, whose neighbours below are nearer than those above, and any others.
+void print_numbers() {
+  std::string obj, written;
+  std::uint64_t state = 1;
+  for (int i = 0; i < 3000; ++i) {
+    pelage::TriangleMesh mesh;
+    const double power = std::ldexp(1.0, i / 13 - 120);
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    const double any = static_cast<double>(state >> 11) * std::ldexp(1.0, static_cast<int>(state % 200) - 150);
+    mesh.points = {{power, std::nextafter(power, 0.0), any},
+                   {std::round(1000 * power) / 1000, static_cast<float>(any), -0.0},
+                   {std::trunc(any), any / 3, 1 / power}};
+    mesh.triangles = {{0, 1, 2}};
+    written += pelage::mesh_bytes(mesh, ".obj");
+  }
+  print("numbers", written);
+  for (const char* number : {"1e-300", "4.9e-324", "2.4703282292062327e-324", "0.1e400", "1e22", "9007199254740993",
+                             "123456789012345678901234567890", "1.7976931348623157e308", "1e999", "-1e-999", "0x10",
+                             "nan", "inf", "1e", ".5", "5.", "+1", "1_0"}) {
+    try {
+      print(std::string("number:") + number,
+            std::vector<double>{pelage::parse_length(std::string(number) + "u", {}).value});
+    } catch (const pelage::Error& error) {
+      print(std::string("number:") + number, std::string(error.what()));
+    }
+  }
+}
+
 std::string stage(const std::string& rest) { return "[[stage]]\n" + rest + "\n[look]\ndetail = 0\n"; }
 
 void run_all() {
+  print_numbers();
   const char* sphere = "builtin:sphere?n=642";
   run("rkc2", sphere, stage("model = \"gray-scott:spots\"\nsize = 0.2"), 200);
   run("fixed", sphere, stage("model = \"gray-scott:spots\"\nsize = 0.2\nstep = 0.5"), 200);
@@ -71,13 +102,17 @@ void time_steps() {
   for (const double size : {0.085, 0.0425}) {
     char text[200];
     std::snprintf(text, sizeof text, "model = \"gray-scott:spots\"\nsize = %g\nstep = 1", size);
-    pelage::Growth growth(pelage::load_shape("builtin:sphere?n=2562"), pelage::parse_recipe(stage(text), "recipe.toml"));
-    growth.advance(20);
-    constexpr int steps = 100;
-    const auto begin = std::chrono::steady_clock::now();
-    growth.advance(steps);
-    const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
-    std::printf("%zu vertices: %.3f ms a step\n", growth.dress().points.size(), taken.count() / steps);
+    pelage::Growth growth(pelage::load_shape("builtin:sphere?n=2562"),
+                          pelage::parse_recipe(stage(text), "recipe.toml"));
+    double best = std::numeric_limits<double>::infinity();  // of several, as other programs run beside it
+    for (int batch = 0; batch < 20; ++batch) {
+      constexpr int steps = 10;
+      const auto begin = std::chrono::steady_clock::now();
+      growth.advance(steps);
+      const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
+      best = std::min(best, taken.count() / steps);
+    }
+    std::printf("%zu vertices: %.3f ms a step\n", growth.dress().points.size(), best);
   }
 }
 
