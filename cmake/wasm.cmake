@@ -42,6 +42,7 @@ target_link_libraries(pelage_look PUBLIC pelage_core)
 pelage_library(pelage gridgen solid measure unwrap catalog)
 target_link_libraries(pelage PUBLIC pelage_look pelage_io)
 include(cmake/embedded.cmake)
+set_source_files_properties(${font_cpp} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
 
 pelage_library(pelage_studio studio)
 target_compile_definitions(pelage_studio PRIVATE PELAGE_VERSION="${PROJECT_VERSION}")
@@ -60,8 +61,8 @@ function(wasm_program name output)
 endfunction()
 
 wasm_program(pelage_wasm pelage-engine apps/studio/wasm.cpp)
-target_link_options(pelage_wasm PRIVATE --no-entry -sEXPORT_NAME=createPelageEngine -sFILESYSTEM=0)
+target_link_options(pelage_wasm PRIVATE --no-entry -sEXPORT_NAME=createPelageEngine)
 configure_file(studio/engine-worker.js ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/engine-worker.js COPYONLY)
 
 wasm_program(wasm_cases wasm-cases tests/wasm/cases.cpp)  # tests/wasm/compare.mjs
-target_link_options(wasm_cases PRIVATE -sEXPORT_NAME=createCases -sEXIT_RUNTIME=1 -sFILESYSTEM=0)
+target_link_options(wasm_cases PRIVATE -sEXPORT_NAME=createCases)

@@ -42,12 +42,27 @@ string printed(const char* format, int precision, double value) {
 float reread(const string& text, float) { return strtof(text.c_str(), nullptr); }
 double reread(const string& text, double) { return strtod(text.c_str(), nullptr); }
 
-/// In scientific notation with the fewest digits that make the same number again, of these the nearest.
+/// The next number, away from zero, in scientific notation with as many digits; not where all are nines.
+string next_number(string text) {
+  for (size_t i = text.find('e'); i-- > 0;) {
+    if (text[i] < '0' || text[i] > '9') continue;
+    if (text[i] != '9') {
+      ++text[i];
+      break;
+    }
+    text[i] = '0';
+  }
+  return text;
+}
+
+/// In scientific notation with the fewest digits that make the same number again, of these the nearest. That may be the
+/// second nearest of all numbers with so many digits: below a power of two the next number is half as far as above.
 template <class Real>
 string shortest_scientific(Real value) {
   for (int digits = 0; digits + 1 < numeric_limits<Real>::max_digits10; ++digits) {
-    string text = printed("%.*e", digits, value);
-    if (reread(text, value) == value) return text;
+    const string nearest = printed("%.*e", digits, value), next = next_number(nearest);
+    if (reread(nearest, value) == value) return nearest;
+    if (reread(next, value) == value) return next;
   }
   return printed("%.*e", numeric_limits<Real>::max_digits10 - 1, value);
 }
