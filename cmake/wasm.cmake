@@ -20,6 +20,11 @@ target_compile_options(pelage_flags INTERFACE -fexceptions
 target_include_directories(pelage_core SYSTEM PUBLIC ${wasm_include})
 target_precompile_headers(pelage_core PRIVATE ${PROJECT_SOURCE_DIR}/cmake/wasm/standard.h)
 target_sources(pelage_core PRIVATE cmake/wasm/standard.cpp)
+# Inner loops that are written for registers of several numbers (base/each_instruction_set.h): four floats at a time, the
+# same bits in half the time.
+set_source_files_properties(src/react/kinetics.cpp src/react/tape.cpp src/react/tape_kernels.cpp src/time/fourier.cpp
+  src/time/paired_nodes.cpp src/time/rkc2.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON
+  COMPILE_OPTIONS "-msimd128;-include;${PROJECT_SOURCE_DIR}/cmake/wasm/standard.h")
 
 # Files and texts: nobody asks here for records and journals, and XML is read by no library that is headers alone.
 pelage_library(pelage_io io recipe)
@@ -57,7 +62,7 @@ function(wasm_program name output)
   target_include_directories(${name} PRIVATE src)
   target_link_libraries(${name} PRIVATE pelage_studio pelage_flags Eigen3::Eigen)
   target_link_options(${name} PRIVATE -fexceptions -sMODULARIZE=1 -sENVIRONMENT=worker,node -sALLOW_MEMORY_GROWTH=1
-    -sMAXIMUM_MEMORY=4GB)
+    -sMAXIMUM_MEMORY=4GB -msimd128)
 endfunction()
 
 wasm_program(pelage_wasm pelage-engine apps/studio/wasm.cpp)

@@ -14,6 +14,7 @@
 #include <iostream>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace {
 
@@ -35,11 +36,10 @@ void print(const std::string& name, const std::string& bytes) {
   std::printf("bytes %s %zu %s\n", name.c_str(), bytes.size(), hash(bytes).c_str());
 }
 
-void run(const char* name, const char* shape, const std::string& text, int steps) {
+void run(const char* name, const pelage::TriangleMesh& shape, const std::string& text, int steps) {
   pelage::Recipe recipe = pelage::parse_recipe(text, "recipe.toml");
   for (pelage::Stage& stage : recipe.stages) stage.steps = steps;
-  const pelage::ShapeFile file = pelage::read_shape(shape);
-  pelage::Growth growth(file.mesh, recipe);
+  pelage::Growth growth(shape, recipe);
   while (!growth.done()) growth.advance(50);
   for (const pelage::Growth::Field& field : growth.fields()) print(std::string(name) + ":" + field.name, field.values);
   const pelage::TriangleMesh coat = growth.dress();
@@ -85,17 +85,30 @@ void print_numbers() {
 
 std::string stage(const std::string& rest) { return "[[stage]]\n" + rest + "\n[look]\ndetail = 0\n"; }
 
+/// A shape without symmetries, by arithmetic alone. The built-in animal is another mesh where sines round otherwise:
+/// what makes its triangles even decides by comparisons.
+pelage::TriangleMesh bumps() {
+  pelage::TriangleMesh mesh = pelage::load_shape("builtin:sphere?n=642");
+  for (pelage::Point& p : mesh.points) {
+    const double factor = 1 + 0.3 * p[0] * p[1] + 0.25 * p[2] * p[0] * p[0] - 0.2 * p[1] * p[2] * p[2];
+    for (double& x : p) x *= factor;
+  }
+  return pelage::check_shape(std::move(mesh)).mesh;
+}
+
 void run_all() {
   print_numbers();
-  const char* sphere = "builtin:sphere?n=642";
+  const pelage::TriangleMesh sphere = pelage::load_shape("builtin:sphere?n=642");
   run("rkc2", sphere, stage("model = \"gray-scott:spots\"\nsize = 0.2"), 200);
   run("fixed", sphere, stage("model = \"gray-scott:spots\"\nsize = 0.2\nstep = 0.5"), 200);
   run("sbdf2", sphere, stage("model = \"schnakenberg\"\nstepper = \"sbdf2\"\nsize = 0.2"), 50);
-  run("loop", "builtin:torus?n=600", stage("model = \"turing\"\nmethod = \"loop\"\nsize = 0.25"), 30);
-  run("linear", "builtin:knot?n=800", stage("model = \"brusselator\"\nmethod = \"linear\"\nsize = 0.2"), 50);
+  run("loop", pelage::load_shape("builtin:torus?n=600"), stage("model = \"turing\"\nmethod = \"loop\"\nsize = 0.25"),
+      30);
+  run("linear", pelage::load_shape("builtin:knot?n=800"),
+      stage("model = \"brusselator\"\nmethod = \"linear\"\nsize = 0.2"), 50);
   run("cells", sphere, stage("model = \"turing\"\nmethod = \"cells\"\ncells = 600\nsize = 0.25"), 30);
-  run("animal", "builtin:animal?n=2000", stage("model = \"turing\"\nsize = 0.1"), 30);
-  run("stripes", "builtin:animal?n=1500", stage("model = \"combed-stripes\"\nsize = 0.1"), 20);
+  run("bumps", bumps(), stage("model = \"turing\"\nsize = 0.1"), 30);
+  run("stripes", bumps(), stage("model = \"combed-stripes\"\nsize = 0.15"), 20);
 }
 
 void time_steps() {

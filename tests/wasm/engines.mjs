@@ -3,6 +3,7 @@
 import { spawn } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
+import { request } from "node:http";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 
@@ -49,10 +50,17 @@ async function nativeEngine() {
     child.on("exit", (code) => fail(new Error(`pelage studio ended with ${code}`)));
   });
   return {
-    ask: async (body) => {
-      const reply = await fetch(`${origin}/api`, { method: "POST", headers: { "X-Pelage-Token": token }, body });
-      return reply.arrayBuffer();
-    },
+    // A connection for each: one that is kept may be closed just as it is used again.
+    ask: (body) => new Promise((done, fail) => {
+      const options = { method: "POST", agent: false, headers: { "X-Pelage-Token": token } };
+      const sent = request(`${origin}/api`, options, async (reply) => {
+        const parts = [];
+        for await (const part of reply) parts.push(part);
+        done(new Uint8Array(Buffer.concat(parts)).buffer);
+      });
+      sent.on("error", fail);
+      sent.end(new Uint8Array(body));
+    }),
     end: () => {
       child.removeAllListeners("exit");
       child.kill();
