@@ -8,6 +8,7 @@
 #include "look/coat_sampler.h"
 #include "look/cut_tessellation.h"
 #include "look/dress.h"
+#include "look/kept_shape.h"
 #include "look/mip_levels.h"
 #include "look/onto_mesh.h"
 #include "look/sheet_image.h"
@@ -26,20 +27,8 @@ namespace {
 
 int texture_size(const GrowOptions& options) { return options.bake.value_or(default_texture); }
 
-/// Built-in shapes are of no other form.
 SourceShape form_of_shape(const ShapeFile& file, const TriangleMesh& shape) {
-  if (file.source) return *file.source;
-  PolygonMesh polygons = polygons_of(shape);
-  std::vector<std::int32_t> vertex(polygons.corners.begin(), polygons.corners.end());
-  return {std::move(polygons), std::move(vertex)};
-}
-
-/// The file's own mesh and attributes with what the coat adds to them.
-PolygonMesh kept_shape(SourceShape source, const TriangleMesh& coat, const Paint& paint) {
-  rename_input(source.polygons.attributes, paint);
-  TriangleMesh added = coat;
-  std::erase_if(added.attributes, [&](const Attribute& a) { return source.polygons.find(a.name) != nullptr; });
-  return as_in_file(source, added);
+  return file.source ? *file.source : own_form(shape);
 }
 
 /// Of patches: whether any output shows images of them; checks that these have room.

@@ -202,18 +202,8 @@ CoatTextures textures_of(BakedCoat baked, const UvLayout& layout) {
   textures.repeat = layout.repeats();
   textures.size = layout.size();
   for (BakedTile& tile : baked.tiles) {
-    const auto shared = [](Pixels& pixels) {
-      return pixels.bytes.empty() ? nullptr : std::make_shared<const Pixels>(std::move(pixels));
-    };
-    const auto grey = [&](Channel channel) {
-      const auto found = tile.greys.find(channel);
-      return found == tile.greys.end() ? nullptr : shared(found->second);
-    };
-    textures.maps.push_back({shared(tile.color), shared(tile.normal), grey(Channel::roughness),
-                             grey(Channel::metalness), grey(Channel::opacity), shared(tile.emission),
-                             grey(Channel::transmission), grey(Channel::thickness), baked.scales.brightest,
-                             baked.scales.deepest});
     textures.heights.push_back(std::move(tile.height));
+    textures.maps.push_back(maps_of(std::move(tile), baked.scales));
   }
   return textures;
 }

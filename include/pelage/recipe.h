@@ -54,6 +54,18 @@ struct TextureFile {
   std::string path;  ///< PNG or JPEG; recipes give it relative to their own file
 };
 
+/// An attribute that is painted: formulas read attribute(NAME), 0 where nothing is. Strokes come one over the other.
+struct Brush {
+  struct Stroke {
+    std::vector<Point> points;  ///< a polyline near the surface, or a single dab [world units]
+    Given<Length> radius;
+    double value = 1;       ///< towards which the brush moves the attribute
+    double hardness = 0.5;  ///< the share of the radius that gets all of the value; beyond it fades; 0 to 1
+  };
+  Given<std::string> name;
+  std::vector<Stroke> strokes;
+};
+
 /// One run of a model to its stop. Formulas know the place (x, nx, k1, attribute(NAME), ...), the parameters of the
 /// model, the fields of earlier stages as STAGE.SPECIES, and `points` where it is set. docs/recipes.md.
 struct Stage {
@@ -157,6 +169,7 @@ struct Recipe {
   std::string shape;                         ///< used when the command names none
   Given<std::string> quality{"normal", {}};  ///< "draft", "normal" or "fine"
   std::vector<TextureFile> textures;
+  std::vector<Brush> brushes;
   ModelTexts models;             ///< beside the built-in ones and files
   std::vector<Stage> stages{1};  ///< at least one
   Motion motion;

@@ -7,6 +7,7 @@
 #include "base/box.h"
 #include "base/number.h"
 #include "base/suggest.h"
+#include "catalog/brushes.h"
 #include "catalog/images.h"
 #include "catalog/marks.h"
 #include "catalog/missing_attribute.h"
@@ -317,8 +318,11 @@ void bind_stages(const Plan& plan, const ShapeScale& scale, const Point& period,
 
 }  // namespace
 
-Program bind_plan(const Plan& plan, std::shared_ptr<const NodeShape> nodes, TriangleMesh mesh,
-                  std::vector<Texture> images) {
+namespace {
+
+/// With what is painted on it already.
+Program bind_nodes(const Plan& plan, std::shared_ptr<const NodeShape> nodes, TriangleMesh mesh,
+                   std::vector<Texture> images) {
   const Grid* grid = as<Grid>(nodes);
   if (!grid || !grid->even()) require_no_lattice(plan);
   require_no_creases(plan);
@@ -333,6 +337,14 @@ Program bind_plan(const Plan& plan, std::shared_ptr<const NodeShape> nodes, Tria
   p.edge = *scale.cell;
   bind_stages(plan, scale, grid ? period_of(*grid) : Point{}, p);
   return p;
+}
+
+}  // namespace
+
+Program bind_plan(const Plan& plan, std::shared_ptr<const NodeShape> nodes, TriangleMesh mesh,
+                  std::vector<Texture> images) {
+  paint_brushes(plan.brushes, scale_of(*nodes, mesh), false, mesh);
+  return bind_nodes(plan, std::move(nodes), std::move(mesh), std::move(images));
 }
 
 namespace {
@@ -358,13 +370,14 @@ void bind_surface(const Plan& plan, const ShapeScale& scale, Program& p) {
 bool fills(const Method& method) { return method.fits && method.fits(TetMesh{}); }
 
 /// What the patterns of all stages need in the volume that a shape encloses.
-double edge_inside(const Plan& plan, const TriangleMesh& shape, std::vector<Texture> images) {
+double edge_inside(const Plan& plan, TriangleMesh shape, std::vector<Texture> images) {
   const ShapeScale scale = scale_of(shape);
+  paint_brushes(plan.brushes, scale, true, shape);
   require_fitting(plan, shape, scale);
   Program p = begin_program(plan, std::move(images));
   p.method = plan.method;
   p.nodes = std::make_shared<const NodeShape>(TetMesh{});
-  p.shape = std::make_shared<const TriangleMesh>(shape);
+  p.shape = std::make_shared<const TriangleMesh>(std::move(shape));
   bind_surface(plan, scale, p);
   return p.edge;
 }
@@ -399,6 +412,7 @@ std::size_t number_of_cells(const Plan& plan, const CellMaker& maker, std::share
 Program bind_cells(const Plan& plan, TriangleMesh mesh, std::vector<Texture> images) {
   require_at_rest(plan);
   const std::size_t reversed = orient_soup(mesh);
+  paint_brushes(plan.brushes, scale_of(mesh), !mesh.triangles.empty(), mesh);
   const auto shape = std::make_shared<const TriangleMesh>(std::move(mesh));
   const CellMaker maker(shape);
   Cells cells = maker.make(number_of_cells(plan, maker, shape, images));
@@ -408,7 +422,7 @@ Program bind_cells(const Plan& plan, TriangleMesh mesh, std::vector<Texture> ima
     cells.stretch = stretch;
   TriangleMesh points = mesh_of(cells);
   Program p =
-      bind_plan(plan, std::make_shared<const NodeShape>(std::move(cells)), std::move(points), std::move(images));
+      bind_nodes(plan, std::make_shared<const NodeShape>(std::move(cells)), std::move(points), std::move(images));
   if (reversed > 0)
     p.warnings.push_back(counted(reversed, "triangle") + " turned over, so that all that meet have one side up");
   if (maker.covered_share() > 0)
@@ -428,6 +442,7 @@ void fill_solid(const Plan& plan, ShapeFile& shape, const std::vector<Texture>& 
   constexpr double noticeable = 0.01;
   Filling filling = fill_within(shape.mesh, edge, noticeable, max_tets);
   if (filling.lost > noticeable) shape.findings.push_back(lost_volume(filling.lost, filling.edge));
+  paint_brushes(plan.brushes, scale_of(shape.mesh), true, shape.mesh);
   filling.volume.surface = std::make_shared<const TriangleMesh>(std::move(shape.mesh));
   shape.mesh = mesh_of(filling.volume);
   shape.nodes = std::make_shared<const NodeShape>(std::move(filling.volume));
@@ -448,8 +463,10 @@ Program bind_plan(const Plan& plan, TriangleMesh shape, std::vector<Texture> ima
   }
   if (grows_on_cells(plan, shape)) return bind_cells(plan, std::move(shape), std::move(images));
   const ShapeScale scale = scale_of(shape);
+  paint_brushes(plan.brushes, scale, true, shape);
   require_fitting(plan, shape, scale);
   Program p = begin_program(plan, std::move(images));
+  p.warnings = coarse_brushes(plan.brushes, scale, shape);
   p.method = fitting_method(plan, shape, p.warnings);
   if (!p.method->smooth) require_no_creases(plan);
   p.creases = creases_of(plan, shape);

@@ -5,6 +5,7 @@
 
 #include "base/number.h"
 #include "base/suggest.h"
+#include "catalog/brushes.h"
 #include "catalog/models.h"
 #include "catalog/names.h"
 #include "catalog/size.h"
@@ -338,6 +339,7 @@ Plan plan(const Recipe& recipe, const Components& components) {
   take_cells(recipe.stages[0].cells, p);
   p.quality = &quality_called(recipe.quality);
   p.textures = recipe.textures;
+  p.brushes = recipe.brushes;
   for (const Stage& stage : recipe.stages) {
     p.stages.push_back(plan_stage(stage, recipe, *p.method, p.stages, components));
     p.until += p.stages.back().until;
@@ -345,6 +347,7 @@ Plan plan(const Recipe& recipe, const Components& components) {
     if (!p.crease) p.crease = checked_crease(stage.crease);
   }
   require_texture_names(recipe.textures, p.stages.back().model);
+  require_brush_names(recipe.brushes, shown_fields(p.stages));
   p.paint = resolve_paint(shown_look(recipe), shown_fields(p.stages));
   require_fields(p.paint.symbols(), p.paint.species);
   plan_motion(recipe.motion, p);

@@ -37,6 +37,7 @@ struct Plan {
   bool interpolate = false;
   std::optional<Given<double>> crease;  ///< angle [degrees]
   std::vector<TextureFile> textures;
+  std::vector<Brush> brushes;
   std::vector<PlannedStage> stages;
   Motion motion;
   std::optional<FairOptions> fair;

@@ -348,6 +348,19 @@ ChannelScales scales_of(const CoatSamples& samples, const Palette& palette) {
 
 }  // namespace
 
+TextureMaps maps_of(BakedTile tile, const ChannelScales& scales) {
+  const auto shared = [](Pixels& pixels) {
+    return pixels.bytes.empty() ? nullptr : std::make_shared<const Pixels>(std::move(pixels));
+  };
+  const auto grey = [&](Channel channel) {
+    const auto found = tile.greys.find(channel);
+    return found == tile.greys.end() ? nullptr : shared(found->second);
+  };
+  return {shared(tile.color),     shared(tile.normal),   grey(Channel::roughness),    grey(Channel::metalness),
+          grey(Channel::opacity), shared(tile.emission), grey(Channel::transmission), grey(Channel::thickness),
+          scales.brightest,       scales.deepest};
+}
+
 BakedCoat bake(const CoatSampler& coat, const Palette& palette, const UvLayout& layout, const ShadingFrames* frames) {
   std::vector<char> hidden(layout.face_count(), 0);
   BakedCoat baked;

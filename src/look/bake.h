@@ -41,6 +41,9 @@ struct BakedCoat {
   UvNote hidden{UvNote::Kind::overlapping};
 };
 
+/// The images of a tile as those of a material.
+TextureMaps maps_of(BakedTile tile, const ChannelScales& scales);
+
 /// `frames`: of the mesh that shows the coat, for a normal map of the height, and where that is not the shape of all
 /// that the coat's surface has beyond it; or null. Texels that show nothing have the mean of the others.
 BakedCoat bake(const CoatSampler& coat, const Palette& palette, const UvLayout& layout, const ShadingFrames* frames);

@@ -179,6 +179,35 @@ std::vector<TextureFile> read_texture_files(const Value& given) {
   return textures;
 }
 
+double share(const Value& table, const std::string& key, double otherwise) {
+  const Value* v = table.find(key);
+  if (v && !(v->number() >= 0 && v->number() <= 1)) throw Error(Fault::usage, key + " must be from 0 to 1", v->where());
+  return v ? v->number() : otherwise;
+}
+
+Brush::Stroke read_stroke(const Value& table) {
+  Brush::Stroke stroke;
+  for (const Value& point : table.at("points").items())
+    stroke.points.push_back(read_point(point, "a point of a stroke"));
+  if (stroke.points.empty()) throw Error(Fault::usage, "a stroke has at least one point", table.where());
+  table.at("radius");
+  stroke.radius = *optional_length(table, "radius");
+  stroke.value = table.number_or("value", stroke.value);
+  stroke.hardness = share(table, "hardness", stroke.hardness);
+  return stroke;
+}
+
+/// [[brush]], each with [[brush.stroke]].
+std::vector<Brush> read_brushes(const Value& list) {
+  std::vector<Brush> brushes;
+  for (const Value& table : list.items()) {
+    Brush& brush = brushes.emplace_back(Brush{given(table.at("name")), {}});
+    if (const Value* strokes = table.find("stroke"))
+      for (const Value& stroke : strokes->items()) brush.strokes.push_back(read_stroke(stroke));
+  }
+  return brushes;
+}
+
 /// A dozen is much; each of them keeps its fields.
 constexpr std::size_t most_stages = 100;
 
@@ -281,6 +310,7 @@ Recipe read_recipe(const Value& document, const std::string& file) {
   if (const Value* v = document.find("shape")) recipe.shape = named_shape(v->string(), v->where());
   read_text(document, "quality", recipe.quality);
   if (const Value* textures = document.find("texture")) recipe.textures = read_texture_files(*textures);
+  if (const Value* brushes = document.find("brush")) recipe.brushes = read_brushes(*brushes);
   recipe.stages = read_stages(document.at("stage"));
   read_solid(document, recipe.stages);
   if (const Value* motion = document.find("motion")) recipe.motion = read_motion(*motion);

@@ -44,6 +44,7 @@ NearestSegment nearest_segment(const std::vector<Point>& line, const Point& p) {
 std::vector<Point> normals_along(const std::vector<Point>& line, const std::vector<Point>& positions,
                                  const std::vector<Point>& normals) {
   std::vector<Point> along;
+  if (normals.empty()) return along;
   for (std::size_t k = 0; k < segment_count(line); ++k) {
     const Point middle = Box{line[k], end_of(line, k)}.middle();
     const auto nearest = std::ranges::min_element(
@@ -83,7 +84,8 @@ std::vector<double> stroke_shares(const BrushStroke& stroke, const std::vector<P
     for (std::size_t i = begin; i < end; ++i) {
       if (!within(reach, positions[i])) continue;
       const NearestSegment nearest = nearest_segment(stroke.points, positions[i]);
-      if (dot(normals[i], along[nearest.segment]) > 0) shares[i] = share_at(std::sqrt(nearest.square), stroke);
+      if (along.empty() || dot(normals[i], along[nearest.segment]) > 0)
+        shares[i] = share_at(std::sqrt(nearest.square), stroke);
     }
   });
   return shares;

@@ -14,7 +14,7 @@ struct BrushStroke {
 };
 
 /// Shares from 0 to 1, at places with these unit normals. Through a thin part paint does not come: a place turned away
-/// from the surface where the stroke passes nearest gets none.
+/// from the surface where the stroke passes nearest gets none. Without normals it comes to all around.
 std::vector<double> stroke_shares(const BrushStroke& stroke, const std::vector<Point>& positions,
                                   const std::vector<Point>& normals);
 

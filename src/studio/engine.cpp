@@ -247,11 +247,19 @@ Message StudioEngine::Parts::restore_state(const Message& request) {
 
 Message StudioEngine::Parts::export_coat(const Message& request) {
   const std::string format = text_of(request.header, "format");
-  const TriangleMesh coat_mesh = growing().dressed();
-  const std::string bytes =
-      mesh_bytes(coat_mesh, format, {request.header.value("name", std::string("coat")), shape->up});
+  const std::size_t texels = count_of(request.header, "bake", 0);
+  if (texels > 0 && format != ".glb")
+    refuse("of the studio's files only .glb holds images; leave them out of " + format);
+  const SaveOptions options{request.header.value("name", std::string("coat")), shape->up};
   Message m;
-  m.header["losses"] = losses(coat_mesh, format);
+  std::string bytes;
+  if (texels > 0) {
+    bytes = growing().baked(static_cast<int>(texels), options, progress());
+  } else {
+    const TriangleMesh mesh = growing().dressed();
+    bytes = mesh_bytes(mesh, format, options);
+    m.header["losses"] = losses(mesh, format);
+  }
   m.blocks.push_back({"bytes", std::vector<std::uint8_t>(bytes.begin(), bytes.end())});
   return m;
 }

@@ -10,6 +10,7 @@
 #include "pelage/error.h"
 #include "run/stage_progress.h"
 #include "shape/vectors.h"
+#include "studio/baked_coat.h"
 
 namespace pelage {
 
@@ -240,6 +241,10 @@ Message LiveCoat::sampled(const Point& at) const {
 }
 
 TriangleMesh LiveCoat::dressed() const { return dress(run_.fields(), look_now()); }
+
+std::string LiveCoat::baked(int size, const SaveOptions& options, const Progress& progress) const {
+  return baked_glb(run_.fields(), look_now(), size, options, progress);
+}
 
 Message LiveCoat::fine() const {
   const Tessellation t = tessellate_for(run_.fields(), look_now(), paint_);

@@ -41,6 +41,8 @@ class LiveCoat {
   Message fine() const;
   /// What files hold.
   TriangleMesh dressed() const;
+  /// The same as images; errors of baked_glb().
+  std::string baked(int size, const SaveOptions& options, const Progress& progress) const;
 
   const Run& run() const { return run_; }
   std::string checkpoint() const { return run_.checkpoint(); }

@@ -13,7 +13,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "blocks are copied as they lie in memory");
 
 constexpr std::size_t alignment = 8;
-/// In the order of Block::values.
+/// In the order of MessageBlock::values.
 constexpr std::array<const char*, 4> type_names = {"u8", "u32", "f32", "f64"};
 
 std::size_t padded(std::size_t length) { return (length + alignment - 1) / alignment * alignment; }
@@ -35,10 +35,10 @@ Header parse_header(std::string_view text) {
 }
 
 template <std::size_t Type = 0>
-Block read_block(const std::string& name, const std::string& type, std::size_t count, std::string_view rest) {
+MessageBlock read_block(const std::string& name, const std::string& type, std::size_t count, std::string_view rest) {
   if constexpr (Type < type_names.size()) {
     if (type != type_names[Type]) return read_block<Type + 1>(name, type, count, rest);
-    Block block{name, {}};
+    MessageBlock block{name, {}};
     auto& values = block.values.emplace<Type>();
     using Number = typename std::decay_t<decltype(values)>::value_type;
     if (count > rest.size() / sizeof(Number)) refuse("the block \"" + name + "\" is cut short");
@@ -50,14 +50,14 @@ Block read_block(const std::string& name, const std::string& type, std::size_t c
   }
 }
 
-std::size_t byte_count(const Block& block) {
+std::size_t byte_count(const MessageBlock& block) {
   return std::visit([](const auto& values) { return values.size() * sizeof(values[0]); }, block.values);
 }
 
 }  // namespace
 
 const std::vector<std::uint8_t>* Message::bytes(std::string_view name) const {
-  for (const Block& block : blocks)
+  for (const MessageBlock& block : blocks)
     if (block.name == name) return std::get_if<std::vector<std::uint8_t>>(&block.values);
   return nullptr;
 }
@@ -65,7 +65,7 @@ const std::vector<std::uint8_t>* Message::bytes(std::string_view name) const {
 std::string encode(const Message& message) {
   Header header = message.header;
   if (!message.blocks.empty()) header["blocks"] = Header::array();
-  for (const Block& block : message.blocks)
+  for (const MessageBlock& block : message.blocks)
     header["blocks"].push_back({{"name", block.name},
                                 {"type", type_names[block.values.index()]},
                                 {"count", std::visit([](const auto& v) { return v.size(); }, block.values)}});
@@ -74,7 +74,7 @@ std::string encode(const Message& message) {
   std::string bytes(sizeof length, '\0');
   std::memcpy(bytes.data(), &length, sizeof length);
   bytes += text;
-  for (const Block& block : message.blocks) {
+  for (const MessageBlock& block : message.blocks) {
     bytes.resize(padded(bytes.size()));
     std::visit(
         [&](const auto& values) {

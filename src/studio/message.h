@@ -13,14 +13,14 @@ namespace pelage {
 
 using Header = nlohmann::ordered_json;
 
-struct Block {
+struct MessageBlock {
   std::string name;
   std::variant<std::vector<std::uint8_t>, std::vector<std::uint32_t>, std::vector<float>, std::vector<double>> values;
 };
 
 struct Message {
   Header header = Header::object();
-  std::vector<Block> blocks;
+  std::vector<MessageBlock> blocks;
 
   /// The bytes of that block of u8; nullptr where there is none.
   const std::vector<std::uint8_t>* bytes(std::string_view name) const;
