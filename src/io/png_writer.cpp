@@ -1,7 +1,5 @@
 #include "io/png_writer.h"
 
-#include <libdeflate.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -89,7 +87,7 @@ void append_chunk(std::string& file, const char* name, const std::string& data) 
   const std::size_t checked = file.size();
   file += name;
   file += data;
-  append_number(file, libdeflate_crc32(0, file.data() + checked, file.size() - checked));
+  append_number(file, crc32(std::string_view(file).substr(checked)));
 }
 
 /// The length of a chunk has 31 bits. In the worst case compression adds a few bytes in ten thousand.

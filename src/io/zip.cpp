@@ -1,28 +1,15 @@
 #include "io/zip.h"
 
-#include <libdeflate.h>
-
 #include <cstdint>
 #include <limits>
-#include <memory>
-#include <new>
 
 #include "io/bytes.h"
+#include "io/zlib.h"
 #include "pelage/error.h"
 
 namespace pelage {
 
 namespace {
-
-std::string deflated(std::string_view bytes) {
-  constexpr int level = 6;  // of 12
-  const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
-      libdeflate_alloc_compressor(level), &libdeflate_free_compressor);
-  if (!compressor) throw std::bad_alloc();
-  std::string out(libdeflate_deflate_compress_bound(compressor.get(), bytes.size()), '\0');
-  out.resize(libdeflate_deflate_compress(compressor.get(), bytes.data(), bytes.size(), out.data(), out.size()));
-  return out;
-}
 
 std::uint32_t size32(std::size_t size) {
   if (size >= std::numeric_limits<std::uint32_t>::max())
@@ -35,25 +22,12 @@ std::string facts_of(const ZipEntry& entry, const std::string& packed) {
   constexpr std::uint16_t version = 20, flags = 0, deflate = 8, time = 0, date = 1 << 5 | 1;  // 1 January 1980
   std::string facts;
   for (const std::uint16_t field : {version, flags, deflate, time, date}) append_bytes(facts, field);
-  append_bytes(facts, libdeflate_crc32(0, entry.bytes.data(), entry.bytes.size()));
+  append_bytes(facts, crc32(entry.bytes));
   append_bytes(facts, size32(packed.size()));
   append_bytes(facts, size32(entry.bytes.size()));
   append_bytes(facts, static_cast<std::uint16_t>(entry.name.size()));
   append_bytes(facts, std::uint16_t{0});  // no extra field
   return facts;
-}
-
-std::optional<std::string> inflated(std::string_view packed, std::size_t size) {
-  constexpr std::size_t most = 1032;  // bytes that deflate makes of one
-  if (size / most > packed.size()) return {};
-  const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> decompressor(
-      libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
-  if (!decompressor) throw std::bad_alloc();
-  std::string out(size, '\0');
-  const libdeflate_result result =
-      libdeflate_deflate_decompress(decompressor.get(), packed.data(), packed.size(), out.data(), size, nullptr);
-  if (result != LIBDEFLATE_SUCCESS) return {};
-  return out;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "base/box.h"
 #include "base/number.h"
@@ -114,7 +115,7 @@ std::vector<Cut> find_cuts(const BccLattice& lattice, const std::vector<LatticeC
         // Clang before 16 has no ranges of iterators, which equal_range() would return.
         const auto first = std::ranges::lower_bound(all, edge, {}, &LatticeCrossing::edge);
         const auto last = std::ranges::upper_bound(first, all.end(), edge, {}, &LatticeCrossing::edge);
-        part.push_back({edge, cut_of({first, last}, winding[at(n)])});
+        part.push_back({edge, cut_of({std::to_address(first), std::to_address(last)}, winding[at(n)])});
       }
   });
 }
