@@ -1,6 +1,6 @@
 # Thin verbs over tools/*.sh and the CMake presets, for those who have make.
 .DEFAULT_GOAL := build
-.PHONY: setup build demo test bench bench-parts test-clients format format-check tidy asan tsan sanitizers mutants fuzz clean
+.PHONY: setup build studio demo test bench bench-parts test-clients format format-check tidy asan tsan sanitizers mutants fuzz clean
 
 export JOBS ?= $(shell nproc)
 CMAKE_BUILD := cmake --build --parallel $(JOBS) --preset
@@ -12,6 +12,9 @@ setup:  ## install what is missing, through apt
 build: setup  ## the release: build/release/bin/pelage
 	@cmake --preset release -DPELAGE_TESTS=OFF -DPELAGE_BENCHMARKS=OFF
 	@$(CMAKE_BUILD) release
+
+studio: build  ## the studio's page, beside the program: build/release/bin/pelage studio opens it
+	@sh tools/studio.sh
 
 demo:  ## grow a coat on the built-in animal: out/demo.glb, out/demo.ply, out/demo.png
 	@sh tools/demo.sh

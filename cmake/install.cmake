@@ -21,3 +21,6 @@ configure_package_config_file(cmake/pelageConfig.cmake.in ${PROJECT_BINARY_DIR}/
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/pelageConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/pelageConfig.cmake ${PROJECT_BINARY_DIR}/pelageConfigVersion.cmake
   DESTINATION ${package_dir})
+
+# The page of the studio, where tools/studio.sh has built it.
+install(DIRECTORY ${PROJECT_BINARY_DIR}/share/pelage/studio DESTINATION ${CMAKE_INSTALL_DATADIR}/pelage OPTIONAL)
