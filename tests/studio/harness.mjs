@@ -51,7 +51,11 @@ export async function openTab(browser, link, { width = 1440, height = 900, touch
   await client.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: downloads, browserContextId: place.id });
   await tab.setViewport({ width, height, isMobile: touch, hasTouch: touch });
   await tab.goto(link);
-  return { tab, faults, downloads, context: place, close: () => rmSync(downloads, { recursive: true, force: true }) };
+  const close = async () => {
+    rmSync(downloads, { recursive: true, force: true });
+    await tab.close();
+  };
+  return { tab, faults, downloads, context: place, close };
 }
 
 export const text = (tab, selector) => tab.$eval(selector, (node) => node.textContent);

@@ -131,7 +131,7 @@ run("open, choose leopard, play, paint a mask, change the size, export, reload, 
   await tab.waitForFunction(() => document.querySelector(".what strong").textContent.startsWith("zebra"));
   await h.shot(tab, "09-undone-and-redone");
   assert.deepEqual(faults, []);
-  close();
+  await close();
 });
 
 run("paint on a paused coat, and undo and redo follow", async () => {
@@ -166,7 +166,7 @@ run("paint on a paused coat, and undo and redo follow", async () => {
   await wait(800);
   await h.shot(tab, "11-erased");
   assert.deepEqual(faults, []);
-  close();
+  await close();
 });
 
 run("a parameter moves while it grows; text with a fault is marked at its line", async () => {
@@ -190,7 +190,7 @@ run("a parameter moves while it grows; text with a fault is marked at its line",
   await h.waitForSteps(tab, 1);
   assert.match(await recipeText(tab), /sise/, "what is being typed survives a reload");
   assert.deepEqual(faults, []);
-  close();
+  await close();
 });
 
 run("a mesh of the user: opened, kept over a reload; a file that is none is told in words", async () => {
@@ -218,7 +218,7 @@ run("a mesh of the user: opened, kept over a reload; a file that is none is told
   await h.shot(tab, "14-broken-mesh");
   assert.match(await h.text(tab, ".what"), /tetrahedron\.obj/, "the shape before stays");
   assert.deepEqual(faults, []);
-  close();
+  await close();
 });
 
 run("a link carries coat, shape and view; a hostile one is refused and nothing runs", async () => {
@@ -230,25 +230,25 @@ run("a link carries coat, shape and view; a hostile one is refused and nothing r
   const address = await tab.$eval(".link-field", (n) => n.value);
   assert.ok(!address.includes("token"), "the token stays here");
   const code = address.split("#s=")[1];
-  close();
+  await close();
   const other = await h.openTab(browser, `${engine.link}&s=${code}`);
   await h.waitForSteps(other.tab, 1);
   assert.equal(await recipeText(other.tab), quick);
   assert.ok(!(await other.tab.url()).includes("s="), "the link is taken out of the address");
   assert.deepEqual([...faults, ...other.faults], []);
-  other.close();
+  await other.close();
   const bad = await h.openTab(browser, `${engine.link}&s=${encodeURIComponent('"><img src=x onerror=alert(1)>')}`);
   await bad.tab.waitForFunction(() => document.querySelector(".message").textContent.includes("characters that no link"));
   await h.waitForSteps(bad.tab, 1);
   await h.shot(bad.tab, "15-hostile-link");
-  bad.close();
+  await bad.close();
   const [server, hash] = engine.link.split("#");
   const small = await h.openTab(browser, `${server}?embed#${hash}&s=${code}`, { width: 640, height: 480 });
   await small.tab.waitForSelector(".embed-bar");
   await wait(4000);
   await h.shot(small.tab, "16-embedded");
   assert.deepEqual(small.faults, []);
-  small.close();
+  await small.close();
   await context.close();
 });
 
@@ -261,7 +261,7 @@ run("what the page exports as text is what the command line grows", async () => 
   assert.equal(readFileSync(file, "utf8"), quick);
   const out = join(downloads, "cli.ply");
   execFileSync(h.program, ["grow", "builtin:animal", "--recipe", file, "-o", out], { stdio: "pipe" });
-  close();
+  await close();
 });
 
 run("small screen, touch", async () => {
@@ -278,7 +278,7 @@ run("small screen, touch", async () => {
   const wide = await tab.evaluate(() => document.documentElement.scrollWidth);
   assert.equal(wide, 390);
   assert.deepEqual(faults, []);
-  close();
+  await close();
 });
 
 run("accessibility: nothing serious, on every panel and both sizes", async () => {
@@ -293,6 +293,6 @@ run("accessibility: nothing serious, on every panel and both sizes", async () =>
       const serious = found.filter((one) => one.impact === "serious" || one.impact === "critical");
       assert.deepEqual(serious, [], `${id} at ${size.width}`);
     }
-    close();
+    await close();
   }
 });
