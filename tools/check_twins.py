@@ -116,7 +116,7 @@ def definitions(text):
                 head, i = [], i + 1
                 continue
             what = None if namespace else definition(head)
-            if what and "static" not in head:
+            if what and "static" not in head and not what.startswith("function main("):  # one in every program
                 yield "::".join(scopes), what, line
             i = skip_to_close(list_, i)
             if namespace or (what or "").startswith("function"):  # all else goes on to a semicolon
