@@ -69,5 +69,5 @@ wasm_program(pelage_wasm pelage-engine apps/studio/wasm.cpp)
 target_link_options(pelage_wasm PRIVATE --no-entry -sEXPORT_NAME=createPelageEngine)
 configure_file(studio/engine-worker.js ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/engine-worker.js COPYONLY)
 
-wasm_program(wasm_cases wasm-cases tests/wasm/cases.cpp)  # tests/wasm/compare.mjs
+wasm_program(wasm_cases wasm-cases cmake/wasm/cases.cpp)  # tests/wasm/compare.mjs
 target_link_options(wasm_cases PRIVATE -sEXPORT_NAME=createCases)

@@ -1,4 +1,4 @@
-// The same runs natively and as WebAssembly (cases.cpp): which lines are the same to the bit, and how far the others are
+// The same runs natively and as WebAssembly (cmake/wasm/cases.cpp): which lines are the same to the bit, and how far the others are
 // apart. Usage: node compare.mjs NATIVE_PROGRAM FOLDER_OF_WASM [TOLERANCE]; exit code 77 where there is no such build.
 import { spawnSync } from "node:child_process";
 import { existsSync, readFileSync } from "node:fs";
