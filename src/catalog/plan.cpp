@@ -237,13 +237,23 @@ void require_sensible_steps(const PlannedStage& p) {
     throw Error(Fault::usage, what + " takes more than a million million steps; give another step, end, or --steps");
 }
 
+/// What its own file has to say is located there already.
+ModelSource model_of(const Given<std::string>& name, const ModelTexts& texts) {
+  try {
+    return find_model(name.value, texts);
+  } catch (const Error& error) {
+    if (!error.where().file.empty()) throw;
+    throw Error(error.fault(), error.what(), name.where);
+  }
+}
+
 PlannedStage plan_stage(const Stage& stage, const Recipe& recipe, const Method& method,
                         const std::vector<PlannedStage>& before, const Components& components) {
   PlannedStage p;
   p.asked = stage;
   require_known(stage.inside, "way to treat the inside of a mask", {"frozen", "excluded"});
   require_same_method(recipe.stages[0], stage);
-  const ModelSource source = find_model(stage.model.value, recipe.models);
+  const ModelSource source = model_of(stage.model, recipe.models);
   const Model plain = compile(source, numbers_of(stage));  // its own faults are found before those of the stage
   const std::vector<std::string> fields = earlier_fields(before);
   p.model = compile(source, numbers_of(stage), stage_changes(source, stage, fields));

@@ -146,6 +146,7 @@ Message text_message(std::string_view text) {
 /// A coat as it stood, and what it grew by.
 struct KeptState {
   std::size_t number = 0;
+  std::string text;
   Recipe recipe;
   std::size_t shape = 0;
   std::string checkpoint;
@@ -160,6 +161,7 @@ struct StudioEngine::Parts {
   std::atomic<bool>& stop_asked;
   std::optional<ShapeFile> shape;
   std::size_t shapes = 0;  ///< that there were: the number of this one
+  std::string text;        ///< of the recipe
   Recipe recipe;
   std::optional<LiveCoat> coat;
   std::deque<KeptState> states;
@@ -206,6 +208,7 @@ Message StudioEngine::Parts::begin(const Message& request) {
   const bool keep = request.header.value("keep", Header(false)) == true;
   LiveCoat begun(*shape, asked, progress(), keep && coat ? &*coat : nullptr);
   recipe = std::move(asked);
+  text = request.header["recipe"];
   coat.emplace(std::move(begun));
   return coat->described();
 }
@@ -227,7 +230,7 @@ Message StudioEngine::Parts::paint(const Message& request) {
 }
 
 Message StudioEngine::Parts::keep_state(const Message&) {
-  states.push_back({++kept, recipe, shapes, growing().checkpoint()});
+  states.push_back({++kept, text, recipe, shapes, growing().checkpoint()});
   if (states.size() > most_states) states.pop_front();
   Message m;
   m.header["state"] = kept;
@@ -241,8 +244,11 @@ Message StudioEngine::Parts::restore_state(const Message& request) {
   LiveCoat begun(*shape, found->recipe, progress(), nullptr);
   begun.restore(found->checkpoint);
   recipe = found->recipe;
+  text = found->text;
   coat.emplace(std::move(begun));
-  return coat->described();
+  Message reply = coat->described();
+  reply.header["recipe"] = text;
+  return reply;
 }
 
 Message StudioEngine::Parts::export_coat(const Message& request) {

@@ -155,6 +155,7 @@ TEST(StudioEngine, StatesComeBack) {
   studio.begin("[[stage]]\nmodel = \"schnakenberg\"\nsize = 0.3\n");
   const Message restored = studio.told("restore_state", {{"state", kept["state"]}});
   EXPECT_EQ(restored.header["steps"], 10);
+  EXPECT_EQ(restored.header["recipe"], spots);
   EXPECT_EQ(block<std::uint8_t>(studio.grow(6), "colors"), block<std::uint8_t>(unbroken, "colors"));
   EXPECT_EQ(studio.ask("restore_state", {{"state", 99}}).header["ok"], false);
   studio.told("shape", {{"name", "builtin:cube"}});
@@ -167,6 +168,7 @@ TEST(StudioEngine, FaultsAreLocatedAndChangeNothing) {
   const Header error = studio.ask("begin", {{"recipe", "[[stage]]\nmodel = \"turing\"\nsise = 0.1\n"}}).header["error"];
   EXPECT_EQ(error["fault"], "usage");
   EXPECT_EQ(error["line"], 3);
+  EXPECT_EQ(studio.ask("check", {{"recipe", "[[stage]]\nmodel = \"turng\"\n"}}).header["error"]["line"], 2);
   EXPECT_EQ(error["file"], "recipe.toml");
   EXPECT_EQ(error["message"].get<std::string>().find("recipe.toml"), std::string::npos);
   EXPECT_EQ(studio.ask("look", {{"recipe", std::string(spots) + "[look]\nramp = \"gry\"\n"}}).header["ok"], false);

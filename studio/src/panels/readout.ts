@@ -25,7 +25,7 @@ class Readout {
   private drawn = 0;
 
   constructor(private readonly studio: Studio) {
-    const again = button("Ask again", { class: "small", label: "Analyse the stage again" });
+    const again = button("Ask again", { class: "small" });
     again.addEventListener("click", () => void this.analyse(true));
     this.theory.append(el("div", { class: "inline spread" }, el("h2", {}, "Linear theory"), again), this.dispersion.node, this.words);
     this.node.append(el("div", { class: "scroll padded" }, el("h2", {}, "Growth"), this.change.node, this.ranges, this.theory));
