@@ -1,6 +1,6 @@
 # Thin verbs over tools/*.sh and the CMake presets, for those who have make.
 .DEFAULT_GOAL := build
-.PHONY: setup build studio demo test bench bench-parts test-clients format format-check tidy asan tsan sanitizers mutants fuzz clean
+.PHONY: setup build studio demo test test-page bench bench-parts test-clients format format-check tidy asan tsan sanitizers mutants fuzz clean
 
 export JOBS ?= $(shell nproc)
 CMAKE_BUILD := cmake --build --parallel $(JOBS) --preset
@@ -21,6 +21,9 @@ demo:  ## grow a coat on the built-in animal: out/demo.glb, out/demo.ply, out/de
 
 test:  ## build everything and run every test
 	@sh tools/test.sh
+
+test-page: studio  ## all of a journey through the studio's page in a browser: six minutes
+	@JOURNEY=. bash tests/scripts/page_test.sh . build/release
 
 BENCH_BUILD = cmake --preset release -DPELAGE_TESTS=OFF -DPELAGE_BENCHMARKS=ON
 bench:  ## measure beside plain programs: docs/performance.md and bench/results, about ten minutes

@@ -36,7 +36,7 @@ function readings(studio: Studio): { node: HTMLElement; follow: () => void } {
 }
 
 function speedControl(studio: Studio): HTMLElement {
-  const input = el("input", { type: "range", min: 0, max: speeds.length - 1, step: 1, id: "speed" });
+  const input = el("input", { type: "range", min: 0, max: speeds.length - 1, step: 1, id: "speed", "aria-label": "Speed" });
   const follow = (): void => {
     input.value = String(studio.speed);
     input.style.setProperty("--fill", `${(100 * studio.speed) / (speeds.length - 1)}%`);
