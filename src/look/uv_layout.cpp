@@ -293,4 +293,11 @@ double texel_length(const TriangleMesh& mesh, const Attribute& uv, int size, dou
   return 0;
 }
 
+bool has_uv(const TriangleMesh& shape) {
+  const Attribute* uv = shape.find("uv");
+  return uv && uv->components == 2 && uv->domain != Domain::face;
+}
+
+UnwrapOptions atlas_options(int size) { return {size, std::clamp(size / 512.0, 1.0, UnwrapOptions{}.margin)}; }
+
 }  // namespace pelage

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pelage/triangle_mesh.h"
+#include "pelage/unwrap.h"
 #include "shape/mesh_place.h"
 
 namespace pelage {
@@ -70,5 +71,11 @@ class UvLayout {
 /// How long texels of n x n are on a mesh, along the direction in which they are longest: all but `share` of the area
 /// have shorter ones. 0 where no face has an area in the image.
 double texel_length(const TriangleMesh& mesh, const Attribute& uv, int size, double share);
+
+/// Whether the mesh has uv on which an image can lie.
+bool has_uv(const TriangleMesh& shape);
+
+/// How an atlas for images of that size is made: with margins as wide as small ones need.
+UnwrapOptions atlas_options(int size);
 
 }  // namespace pelage
