@@ -298,6 +298,4 @@ bool has_uv(const TriangleMesh& shape) {
   return uv && uv->components == 2 && uv->domain != Domain::face;
 }
 
-UnwrapOptions atlas_options(int size) { return {size, std::clamp(size / 512.0, 1.0, UnwrapOptions{}.margin)}; }
-
 }  // namespace pelage

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "pelage/triangle_mesh.h"
-#include "pelage/unwrap.h"
 #include "shape/mesh_place.h"
 
 namespace pelage {
@@ -74,8 +73,5 @@ double texel_length(const TriangleMesh& mesh, const Attribute& uv, int size, dou
 
 /// Whether the mesh has uv on which an image can lie.
 bool has_uv(const TriangleMesh& shape);
-
-/// How an atlas for images of that size is made: with margins as wide as small ones need.
-UnwrapOptions atlas_options(int size);
 
 }  // namespace pelage
