@@ -1,11 +1,11 @@
 #include <optional>
 
+#include "base/report.h"
 #include "catalog/bind.h"
 #include "look/cut_tessellation.h"
 #include "look/dress.h"
 #include "pelage/grow.h"
 #include "run/run.h"
-#include "run/stage_progress.h"
 
 namespace pelage {
 

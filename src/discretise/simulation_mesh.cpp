@@ -69,14 +69,14 @@ Point smooth_point(const std::array<Point, 3>& corners, const std::array<Point, 
 }
 
 SimulationMesh::SimulationMesh(Hierarchy& levels, std::vector<Point>& control, const Edge& edge,
-                               std::size_t max_triangles) {
+                               std::size_t max_triangles, const Progress& progress) {
   refine_for(levels, control, edge.smallest, max_triangles);
   base_ = levels.shared_topology(0);
   finest_ = levels.shared_topology(levels.finest());
   const std::vector<Point> limit = loop_limits(*finest_, control);
   std::vector<double> edges(limit.size(), edge.smallest);
   if (!edge.at_vertices.empty()) edges = levels.interpolated(edge.at_vertices, 1, 0, levels.finest());
-  IsotropicMesh mesh = isotropic_mesh(levels, limit, std::move(edges));
+  IsotropicMesh mesh = isotropic_mesh(levels, limit, std::move(edges), progress);
   places_ = std::move(mesh.places);
   topology_ = std::make_shared<const Topology>(std::move(mesh.topology));
   levels_ = levels.finest();

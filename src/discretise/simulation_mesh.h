@@ -22,8 +22,9 @@ class SimulationMesh {
   };
   /// On the limit surface of the control points `control` at the finest of the levels, which is level 0. Adds levels,
   /// and refines the points with them, until their triangles are about as large as its own. Error(Fault::input) when
-  /// it would have more than `max_triangles`.
-  SimulationMesh(Hierarchy& levels, std::vector<Point>& control, const Edge& edge, std::size_t max_triangles);
+  /// it would have more than `max_triangles`; Error(Fault::cancelled).
+  SimulationMesh(Hierarchy& levels, std::vector<Point>& control, const Edge& edge, std::size_t max_triangles,
+                 const Progress& progress = {});
 
   const std::shared_ptr<const Topology>& shared_topology() const { return topology_; }
   std::size_t vertices() const { return places_.size(); }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "run/stage_progress.h"
+#include "base/report.h"
 #include "shape/grid.h"
 
 namespace pelage {

@@ -7,11 +7,11 @@
 
 #include "base/box.h"
 #include "base/number.h"
+#include "base/report.h"
 #include "pelage/error.h"
 #include "react/stability.h"
 #include "run/blow_up.h"
 #include "run/checkpoint.h"
-#include "run/stage_progress.h"
 #include "time/step_limit.h"
 #include "time/step_support.h"
 

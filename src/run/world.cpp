@@ -1,8 +1,8 @@
 #include "run/world.h"
 
+#include "base/report.h"
 #include "pelage/error.h"
 #include "run/forecast.h"
-#include "run/stage_progress.h"
 #include "shape/tet_mesh.h"
 
 namespace pelage {
@@ -45,9 +45,12 @@ World::World(std::shared_ptr<const Program> program, const Progress& progress) :
   std::vector<Point> control = coarse_control(shape.points);
   const Method& method = *program_->method;
   if (method.own_mesh) {
-    report(progress, "meshing", 0.1);
+    const auto meshing = [&](std::string_view what, double fraction) {
+      return !progress || progress(what, 0.1 + 0.2 * fraction);
+    };
     mesh_ = std::make_shared<const SimulationMesh>(
-        *hierarchy, control, SimulationMesh::Edge{program_->edge, program_->edges}, max_triangles);
+        *hierarchy, control, SimulationMesh::Edge{program_->edge, program_->edges}, max_triangles, meshing);
+    report(progress, "measuring", 0.3);
     space_ = method.make_space(mesh_->shared_topology(), mesh_->points(control));
     control_ = std::move(control);
     return;

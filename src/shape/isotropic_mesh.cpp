@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/report.h"
 #include "pelage/error.h"
 #include "shape/crease_lines.h"
 #include "shape/creases.h"
@@ -164,7 +165,7 @@ double wanted_faces(const Topology& base, const std::vector<Point>& points, cons
 class IsotropicMesher {
  public:
   IsotropicMesher(const Topology& base, const std::vector<Point>& points, std::vector<double> sizes,
-                  const OwnOrder& start);
+                  const OwnOrder& start, const Progress& progress);
   /// To so many triangles; without the points.
   IsotropicMesh run(double wanted);
 
@@ -230,6 +231,12 @@ class IsotropicMesher {
   Spot relaxed_on_line(Index v, const Index* begin, const Index* end) const;
 
   void pack();
+  void ask() const { report(progress_, "meshing", done_); }
+  /// Within a pass over all edges of a large mesh.
+  void ask_now_and_then(Index edge) const {
+    constexpr Index often = 1 << 16;
+    if (edge % often == 0) ask();
+  }
   Vec face_normal(Index a, Index b, Index c) const {
     return (spot(b).point - spot(a).point).cross(spot(c).point - spot(a).point);
   }
@@ -238,6 +245,8 @@ class IsotropicMesher {
 
   const Topology& base_;
   const std::vector<Point>& points_;
+  const Progress& progress_;
+  double done_ = 0;  ///< of the rounds
   SurfaceWalk surface_;
   BorderLines border_;
   CreaseLines lines_;
@@ -252,9 +261,10 @@ class IsotropicMesher {
 };
 
 IsotropicMesher::IsotropicMesher(const Topology& base, const std::vector<Point>& points, std::vector<double> sizes,
-                                 const OwnOrder& start)
+                                 const OwnOrder& start, const Progress& progress)
     : base_(base),
       points_(points),
+      progress_(progress),
       surface_(base, points),
       border_(base, points),
       lines_(base, points),
@@ -440,10 +450,15 @@ void IsotropicMesher::split_above(double factor) {
   for (bool last = false; !last; limit = std::max(limit / 1.5, factor)) {
     last = limit == factor;
     const Index before = mesh_.halfedge_count();
-    for (Index h : edges_where([&](Index e) { return longer(e, limit); }))
+    Index count = 0;
+    for (Index h : edges_where([&](Index e) { return longer(e, limit); })) {
+      ask_now_and_then(count++);
       if (longer(h, limit)) cut(h);
-    for (Index h = before; h < std::min(4 * before, mesh_.halfedge_count()); ++h)
+    }
+    for (Index h = before; h < std::min(4 * before, mesh_.halfedge_count()); ++h) {
+      ask_now_and_then(h);
       if (mesh_.twin(h) < h && longer(h, limit)) cut(h);
+    }
   }
 }
 
@@ -517,7 +532,9 @@ bool IsotropicMesher::should_collapse(Index h, double longest) const {
 /// Shrinks edges shorter than so many wanted ones where none longer than 4/3 results, or than `longest` for those
 /// shorter than 0.6, which set the largest step.
 void IsotropicMesher::collapse_below(double factor, double longest) {
+  Index count = 0;
   for (Index h : edges_where([&](Index e) { return !longer(e, factor); })) {
+    ask_now_and_then(count++);
     if (!mesh_.alive(h) || longer(h, factor)) continue;
     // With less than 0.6, even lattices of triangles with two short sides and a long one would stay as they are.
     if (!should_collapse(h, longer(h, 0.6) ? 4.0 / 3.0 : longest)) continue;
@@ -685,6 +702,7 @@ void IsotropicMesher::relax(int times) {
     return stirred_[v] || std::any_of(rings.begin(v), rings.end(v), [&](Index n) { return stirred_[at(n)] != 0; });
   };
   for (int i = 0; i < times; ++i) {
+    ask();
     parallel_for(
         spots_.size(),
         [&](std::size_t begin, std::size_t end) {
@@ -729,9 +747,11 @@ IsotropicMesh IsotropicMesher::run(double wanted) {
     if (round == 0)
       for (double factor : {0.2, 0.4}) collapse_below(factor, 4.0 / 3.0);
     collapse_below(4.0 / 5.0, 5.0 / 3.0);
+    ask();
     flip_all();
     relax(round + 1 < rounds ? 1 : 2);
     // Much smaller, and the limits would cut a mesh that is even but a little coarse at all its edges.
+    done_ = (round + 1) / (rounds + 1.0);
     if (round > 0) scale_ = std::clamp(scale_ * std::sqrt(mesh_.live_faces() / (1.02 * wanted)), 0.9, 1.1);
   }
   collapse_below(0.5, 5.0 / 3.0);
@@ -758,7 +778,8 @@ IsotropicMesh isotropic_mesh(const std::vector<Triangle>& triangles, const std::
   return isotropic_mesh(Hierarchy(make_topology(points.size(), triangles), midpoint_refine), points, edges);
 }
 
-IsotropicMesh isotropic_mesh(const Hierarchy& levels, const std::vector<Point>& points, std::vector<double> edges) {
+IsotropicMesh isotropic_mesh(const Hierarchy& levels, const std::vector<Point>& points, std::vector<double> edges,
+                             const Progress& progress) {
   for (double edge : edges)
     if (!(edge > 0)) throw Error(Fault::usage, "the wanted edge length must be positive");
   const Topology& base = levels.topology(levels.finest());
@@ -772,7 +793,7 @@ IsotropicMesh isotropic_mesh(const Hierarchy& levels, const std::vector<Point>& 
   while (start > 0 && static_cast<double>(levels.topology(start).triangles.size()) > 2 * wanted) --start;
   const std::vector<Point> uneven = without_symmetry(points, *std::min_element(edges.begin(), edges.end()));
   const OwnOrder order = own_order(levels.topology(start), uneven);
-  IsotropicMesh mesh = IsotropicMesher(base, uneven, std::move(edges), order).run(wanted);
+  IsotropicMesh mesh = IsotropicMesher(base, uneven, std::move(edges), order, progress).run(wanted);
   mesh.points.resize(mesh.places.size());
   parallel_for(mesh.points.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) mesh.points[v] = point_at(base.triangles, points, mesh.places[v]);

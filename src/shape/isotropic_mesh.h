@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "pelage/progress.h"
 #include "shape/hierarchy.h"
 #include "shape/mesh_place.h"
 
@@ -33,7 +34,8 @@ IsotropicMesh isotropic_mesh(const std::vector<Triangle>& triangles, const std::
                              const std::vector<double>& edges);
 
 /// The same on the finest level of a hierarchy, where the points and edges are given. It begins with the triangles of
-/// that level which has about as many as the result: fewer edges are to be cut or collapsed.
-IsotropicMesh isotropic_mesh(const Hierarchy& levels, const std::vector<Point>& points, std::vector<double> edges);
+/// that level which has about as many as the result: fewer edges are to be cut or collapsed. Error(Fault::cancelled).
+IsotropicMesh isotropic_mesh(const Hierarchy& levels, const std::vector<Point>& points, std::vector<double> edges,
+                             const Progress& progress = {});
 
 }  // namespace pelage

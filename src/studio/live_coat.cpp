@@ -8,7 +8,6 @@
 #include "look/cut_tessellation.h"
 #include "look/dress.h"
 #include "pelage/error.h"
-#include "run/stage_progress.h"
 #include "shape/vectors.h"
 #include "studio/baked_coat.h"
 #include "studio/catalogue.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Progress of the work before a stage can begin.
+// Progress of long work that one thread does from its beginning to its end.
 
 #include "pelage/error.h"
 #include "pelage/progress.h"
