@@ -1,5 +1,6 @@
 #include "shape/point_index.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -27,8 +28,10 @@ PointIndex::PointIndex(std::span<const Point> points, double side) : side_(side)
 }
 
 PointIndex::Box PointIndex::box_of(const Point& p) const {
+  constexpr auto last = std::int64_t{1} << 62;  // what lies further out shares a box that loops can count beyond
   Box box;
-  for (std::size_t k = 0; k < 3; ++k) box[k] = saturated<std::int64_t>(std::floor(p[k] / side_));
+  for (std::size_t k = 0; k < 3; ++k)
+    box[k] = std::clamp(saturated<std::int64_t>(std::floor(p[k] / side_)), -last, last);
   return box;
 }
 

@@ -76,7 +76,7 @@ TEST(Analyse, FaultsAreRefused) {
   EXPECT_EQ(fault_of([] { analyse("turing", {{"no_such", 1}}); }), 2);
   EXPECT_EQ(fault_of([] { analyse("turing", {{"Da", -1}}); }), 2);
   EXPECT_EQ(fault_of([] { analyse("no/such/file.toml"); }), 3);
-  EXPECT_EQ(fault_of([] { analyse("mine", {}, {{"mine", "name = "}}); }), 2);
+  EXPECT_EQ(fault_of([] { analyse("mine", {}, {{"mine", {"name = "}}}); }), 2);
 }
 
 TEST(Analyse, BuiltInModelsAreNamed) {

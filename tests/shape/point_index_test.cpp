@@ -28,5 +28,16 @@ TEST(PointIndex, FindsWhatTryingAllFinds) {
   }
 }
 
+// Boxes so far out have no numbers of their own.
+TEST(PointIndex, FindsWhatLiesFarOut) {
+  const std::vector<Point> points = {{1e300, 0, 0}, {-1e300, 0, 0}, {0, 0, 0}};
+  const PointIndex index(points, 1e-3);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::vector<std::int32_t> found;
+    index.for_each_within(points[i], 1e-3, [&](std::int32_t k, double) { found.push_back(k); });
+    EXPECT_EQ(found, std::vector<std::int32_t>{static_cast<std::int32_t>(i)});
+  }
+}
+
 }  // namespace
 }  // namespace pelage

@@ -164,6 +164,9 @@ for (const format of [".glb", ".ply", ".obj", ".stl"]) {
   await ask({ do: "shape", name: "builtin:sphere?n=642" });
   await ask({ do: "begin", recipe });
 }
+const x = { parameter: "s", low: 0.02, high: 0.08, count: 5 }, y = { parameter: "Db", low: 0.02, high: 0.1, count: 4 };
+await ask({ do: "parameter_map", recipe, stage: 0, x, y });
+await ask({ do: "map_tile", recipe, stage: 0, x, y, texels: 32 });
 native.end();
 console.log(`${checks} comparisons of the two engines, ${failures} failures`);
 process.exit(failures === 0 ? 0 : 1);
