@@ -86,6 +86,8 @@ void main() { gl_FragColor = vec4(normals ? normalize(up) : place, 1.0); }`;
 export class Scene {
   readonly canvas: HTMLCanvasElement;
   onView: () => void = () => undefined;
+  /** Called when the user has turned or moved the view, with what it was. */
+  onMoved: (before: View) => void = () => undefined;
   private readonly renderer: three.WebGLRenderer;
   private readonly scene = new three.Scene();
   private readonly camera = new three.PerspectiveCamera(30, 1, 0.01, 100);
@@ -98,6 +100,7 @@ export class Scene {
   private readonly key = new three.DirectionalLight(0xfff4e6, 1.25);
   private readonly rim = new three.DirectionalLight(0xdde8ff, 0.6);
   private readonly ground: three.Mesh;
+  private strokes = new three.InstancedMesh(new three.CylinderGeometry(1, 1, 1, 8), new three.MeshBasicMaterial({ color: 0xffd27d }), 0);
   private readonly pickScene = new three.Scene();
   private readonly pickMesh: three.Mesh;
   private readonly pickMaterial: three.ShaderMaterial;
@@ -109,6 +112,8 @@ export class Scene {
   private diagonal = 1;
   private up: "y" | "z" = "y";
   private dirty = true;
+  private pictures = 0;
+  private readonly waiting: (() => void)[] = [];
   private continuous = false;
   private background = "studio";
 
@@ -173,6 +178,9 @@ export class Scene {
     controls.dampingFactor = 0.12;
     controls.autoRotateSpeed = 4;
     controls.addEventListener("change", () => this.touch());
+    let before = "";
+    controls.addEventListener("start", () => (before = JSON.stringify(this.view())));
+    controls.addEventListener("end", () => before !== JSON.stringify(this.view()) && this.onMoved(JSON.parse(before) as View));
     return controls;
   }
 
@@ -186,7 +194,17 @@ export class Scene {
     if (!this.dirty && !this.continuous) return;
     this.dirty = false;
     this.renderer.render(this.scene, this.camera);
+    ++this.pictures;
     this.onView();
+    for (const told of this.waiting.splice(0)) told();
+  }
+
+  /** Resolves when what is there now has been drawn; where nothing is drawn, as in a tab behind others, a moment later. */
+  drawn(): Promise<void> {
+    return new Promise((resolve) => {
+      this.waiting.push(resolve);
+      setTimeout(resolve, 250);
+    });
   }
 
   private resize(): void {
@@ -360,6 +378,35 @@ export class Scene {
     this.touch();
   }
 
+  /** Lines that lie on the surface, as round strokes of this radius. */
+  setLines(lines: Vec3[][], radius: number): void {
+    const segments = lines.flatMap((line) => line.slice(1).map((end, i) => [line[i]!, end] as const));
+    if (!segments.length && !this.strokes.count) return;
+    if (this.strokes.instanceMatrix.count < segments.length) this.makeStrokes(2 * segments.length);
+    const along = new three.Vector3();
+    const pose = new three.Object3D();
+    segments.forEach(([a, b], i) => {
+      along.set(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+      pose.position.set(...a).addScaledVector(along, 0.5);
+      pose.scale.set(radius, along.length() + radius, radius);
+      pose.quaternion.setFromUnitVectors(new three.Vector3(0, 1, 0), along.normalize());
+      pose.updateMatrix();
+      this.strokes.setMatrixAt(i, pose.matrix);
+    });
+    this.strokes.count = segments.length;
+    this.strokes.instanceMatrix.needsUpdate = true;
+    this.touch();
+  }
+
+  private makeStrokes(most: number): void {
+    const { geometry, material } = this.strokes;
+    this.scene.remove(this.strokes);
+    this.strokes.dispose();
+    this.strokes = new three.InstancedMesh(geometry, material, most);
+    this.strokes.frustumCulled = false;
+    this.scene.add(this.strokes);
+  }
+
   setSurface(roughness: number, metalness: number): void {
     this.material.roughness = Math.min(1, Math.max(0.02, roughness));
     this.material.metalness = Math.min(1, Math.max(0, metalness));
@@ -415,6 +462,12 @@ export class Scene {
     return (2 * distance * Math.tan((this.camera.fov * Math.PI) / 360)) / (this.canvas.clientHeight || 1);
   }
 
+  /** What is held on the side of the GPU, and how many pictures were drawn: for tests and measurements. */
+  get figures(): Record<string, number> {
+    const { memory, programs } = this.renderer.info;
+    return { geometries: memory.geometries, textures: memory.textures, programs: programs?.length ?? 0, pictures: this.pictures };
+  }
+
   /** What lies under a place of the page: one pixel is drawn with positions and normals in place of colours. */
   pick(clientX: number, clientY: number): Hit | null {
     const box = this.canvas.getBoundingClientRect();
@@ -455,7 +508,14 @@ export class Scene {
     const move = moves[event.key];
     if (!move) return;
     event.preventDefault();
-    move();
+    this.moved(move);
+  }
+
+  /** Does something to the view that can be undone. */
+  moved(change: () => void): void {
+    const before = this.view();
+    change();
+    this.onMoved(before);
   }
 
   turn(around: number, over: number): void {
