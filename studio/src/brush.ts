@@ -127,7 +127,12 @@ export class Brush {
     this.points = [];
     this.sent = 0;
     if (this.tool === "brush" || this.tool === "eraser") this.studio.recordPaint(this.tool === "eraser" ? "eraser stroke" : "brush stroke");
-    this.add(hit.point);
+    this.add(this.placeOf(hit.point));
+  }
+
+  /** What becomes part of the recipe is painted on the shape as it was, and what grows on the one that is there. */
+  private placeOf(point: Vec3): Vec3 {
+    return isMap(this.tool) || this.tool === "direction" ? this.studio.scene.atStart(point) : point;
   }
 
   private move(event: PointerEvent): void {
@@ -139,7 +144,7 @@ export class Brush {
     this.last = { x: event.clientX, y: event.clientY };
     const hit = this.studio.scene.pick(event.clientX, event.clientY);
     if (this.tool !== "direction") this.studio.scene.setRings(hit ? this.mirrored(hit.point) : [], this.radius);
-    if (hit) this.add(hit.point);
+    if (hit) this.add(this.placeOf(hit.point));
   }
 
   private up(event: PointerEvent): void {
@@ -267,7 +272,7 @@ export class Brush {
   }
 
   private lay(stroke: Stroke): void {
-    const places = this.studio.scene.positions;
+    const places = this.studio.scene.startPositions;
     const values = this.preview;
     if (!values || values.length !== places.length / 3) return;
     const { points, radius, hardness, value } = stroke;
@@ -282,7 +287,8 @@ export class Brush {
 
   private showPreview(tool: "mask" | "size"): void {
     const bytes = Uint8Array.from(this.preview ?? [], (v) => Math.min(255, Math.abs(v) * 255));
-    this.studio.scene.setPainted(bytes, maps[tool].tint);
+    // Afterwards the pattern shows through.
+    this.studio.scene.setPainted(bytes, maps[tool].tint, this.pointer === null ? 0.35 : 0.7);
   }
 }
 

@@ -31,6 +31,7 @@ interface Uniforms {
   ringCount: { value: number };
   ringRadius: { value: number };
   tint: { value: three.Color };
+  tintStrength: { value: number };
 }
 
 /** The coat's bytes are sRGB; light is computed in linear numbers. The ring and what is masked are drawn by the surface itself. */
@@ -55,12 +56,12 @@ function dressMaterial(material: three.MeshStandardMaterial, uniforms: Uniforms)
         "#include <common>",
         `#include <common>
         varying vec4 vCoat; varying float vPainted; varying vec3 vPlace;
-        uniform float bare; uniform vec3 rings[${maxRings}]; uniform int ringCount; uniform float ringRadius; uniform vec3 tint;`,
+        uniform float bare; uniform vec3 rings[${maxRings}]; uniform int ringCount; uniform float ringRadius; uniform vec3 tint; uniform float tintStrength;`,
       )
       .replace(
         "#include <color_fragment>",
         `diffuseColor *= mix(vCoat, vec4(0.52, 0.50, 0.47, 1.0), bare);
-        diffuseColor.rgb = mix(diffuseColor.rgb, tint, 0.7 * vPainted);
+        diffuseColor.rgb = mix(diffuseColor.rgb, tint, tintStrength * vPainted);
         if (diffuseColor.a < 0.02) discard;`,
       )
       .replace(
@@ -111,6 +112,8 @@ export class Scene {
   private middle = new three.Vector3();
   private diagonal = 1;
   private up: "y" | "z" = "y";
+  /** Where the nodes were at the start, of a surface that has moved since. */
+  private start: Float32Array | null = null;
   private dirty = true;
   private pictures = 0;
   private readonly waiting: (() => void)[] = [];
@@ -130,6 +133,7 @@ export class Scene {
       ringCount: { value: 0 },
       ringRadius: { value: 0 },
       tint: { value: new three.Color(0.1, 0.55, 0.9) },
+      tintStrength: { value: 0.7 },
     };
     dressMaterial(this.material, this.uniforms);
     this.mesh = new three.Mesh(new three.BufferGeometry(), this.material);
@@ -154,11 +158,13 @@ export class Scene {
     host.prepend(this.canvas);
     new ResizeObserver(() => this.resize()).observe(host);
     this.resize();
-    const tick = (): void => {
+    let last = performance.now();
+    const tick = (now: number): void => {
       requestAnimationFrame(tick);
-      this.draw();
+      this.draw((now - last) / 1000);
+      last = now;
     };
-    tick();
+    requestAnimationFrame(tick);
   }
 
   private furnish(): void {
@@ -189,8 +195,8 @@ export class Scene {
     this.dirty = true;
   }
 
-  private draw(): void {
-    this.controls.update();
+  private draw(seconds: number): void {
+    this.controls.update(seconds);
     if (!this.dirty && !this.continuous) return;
     this.dirty = false;
     this.renderer.render(this.scene, this.camera);
@@ -289,6 +295,7 @@ export class Scene {
   setMesh(positions: Float32Array, normals: Float32Array, triangles: Uint32Array, colors: Uint8Array): void {
     this.coarse?.dispose();
     this.coarse = null;
+    this.start = null;
     this.mesh.geometry.dispose();
     this.show(this.geometryOf(positions, normals, triangles, colors));
     this.setTransparent(colors);
@@ -330,6 +337,24 @@ export class Scene {
     return (attribute?.array ?? new Float32Array()) as Float32Array;
   }
 
+  /** Places of the nodes on the shape as it was at the start, to which the strokes of recipes belong. */
+  get startPositions(): Float32Array {
+    return this.coarse || !this.start ? this.positions : this.start;
+  }
+
+  /** Where a point of the surface was at the start: at its nearest node, where it has moved. */
+  atStart(point: Vec3): Vec3 {
+    if (!this.start) return point;
+    const now = (this.coarse ?? this.mesh.geometry).getAttribute("position").array;
+    let nearest = 0;
+    let least = Infinity;
+    for (let i = 0; i < now.length; i += 3) {
+      const away = (now[i]! - point[0]) ** 2 + (now[i + 1]! - point[1]) ** 2 + (now[i + 2]! - point[2]) ** 2;
+      if (away < least) [least, nearest] = [away, i];
+    }
+    return [this.start[nearest]!, this.start[nearest + 1]!, this.start[nearest + 2]!];
+  }
+
   private update(name: string, values: ArrayLike<number>): void {
     const attribute = this.mesh.geometry.getAttribute(name) as three.BufferAttribute | undefined;
     if (!attribute || attribute.array.length !== values.length) return;
@@ -354,14 +379,16 @@ export class Scene {
 
   movePositions(positions: Float32Array, normals: Float32Array): void {
     this.toCoarse();
+    this.start ??= this.positions.slice();
     this.update("position", positions);
     this.update("normal", normals);
     this.renderer.shadowMap.needsUpdate = true;
   }
 
   /** How strongly each node is marked as painted by a mask or map, from 0 to 255; null: nothing is marked. */
-  setPainted(values: Uint8Array | null, tint: string): void {
+  setPainted(values: Uint8Array | null, tint: string, strength = 0): void {
     this.uniforms.tint.value.set(tint);
+    this.uniforms.tintStrength.value = strength;
     this.update("painted", values ?? new Uint8Array(this.positions.length / 3));
   }
 

@@ -94,7 +94,7 @@ class Editor {
   private showParts(models: OwnModel[]): void {
     if (!models.some((one) => one.name === this.model)) this.model = null;
     const wanted = ["", ...models.map((one) => one.name)];
-    if (wanted.join() !== [...this.parts.options].map((option) => option.value).join()) {
+    if (JSON.stringify(wanted) !== JSON.stringify([...this.parts.options].map((option) => option.value))) {
       this.parts.replaceChildren(...wanted.map((value) => el("option", { value }, value ? `Model ${value}` : "Recipe")));
     }
     this.parts.value = this.model ?? "";
