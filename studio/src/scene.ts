@@ -24,6 +24,15 @@ const skyStrength = 2.6;
 const roomStrength = 0.42;
 export const reducedMotion = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;
 
+/** Whether the browser has no graphics card to draw with, as the name of what draws tells. */
+function drawnByProcessor(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const names = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = gl && names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
 interface Uniforms {
   [name: string]: three.IUniform;
   bare: { value: number };
@@ -114,6 +123,10 @@ export class Scene {
   private up: "y" | "z" = "y";
   /** Where the nodes were at the start, of a surface that has moved since. */
   private start: Float32Array | null = null;
+  /** Where a processor draws, smooth edges wait until the picture stands still. */
+  private readonly slow = drawnByProcessor();
+  private sharp = false;
+  private stillFor = 0;
   private dirty = true;
   private pictures = 0;
   private readonly waiting: (() => void)[] = [];
@@ -121,7 +134,7 @@ export class Scene {
   private background = "studio";
 
   constructor(private readonly host: HTMLElement) {
-    this.renderer = new three.WebGLRenderer({ antialias: true, alpha: true, powerPreference: "high-performance" });
+    this.renderer = new three.WebGLRenderer({ antialias: !this.slow, alpha: true, powerPreference: "high-performance" });
     this.renderer.toneMapping = three.NeutralToneMapping;
     this.renderer.setClearColor(0, 0);
     this.renderer.shadowMap.enabled = true;
@@ -197,12 +210,27 @@ export class Scene {
 
   private draw(seconds: number): void {
     this.controls.update(seconds);
-    if (!this.dirty && !this.continuous) return;
+    if (!this.dirty && !this.continuous) return this.sharpen(seconds);
+    if (this.sharp) this.setSharp(false);
     this.dirty = false;
+    this.stillFor = 0;
     this.renderer.render(this.scene, this.camera);
     ++this.pictures;
     this.onView();
     for (const told of this.waiting.splice(0)) told();
+  }
+
+  private sharpen(seconds: number): void {
+    this.stillFor += seconds;
+    if (!this.slow || this.sharp || this.stillFor < 0.5) return;
+    this.setSharp(true);
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  private setSharp(on: boolean): void {
+    this.sharp = on;
+    const usual = this.slow ? 1 : Math.min(2, devicePixelRatio || 1);
+    this.renderer.setPixelRatio(on ? 1.5 * usual : usual);
   }
 
   /** Resolves when what is there now has been drawn; where nothing is drawn, as in a tab behind others, a moment later. */
@@ -216,7 +244,7 @@ export class Scene {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.host;
     if (!width || !height) return;
-    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio || 1));
+    this.setSharp(false);
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
