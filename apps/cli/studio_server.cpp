@@ -52,7 +52,7 @@ std::map<std::string, File> read_page(const std::string& folder) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, none))
     if (entry.is_regular_file())
       files["/" + std::filesystem::relative(entry.path(), folder).generic_string()] = {
-          type_of(lower_extension(entry.path().string())), read_file(entry.path().string())};
+          type_of(lower_extension(entry.path().string())), read_raw_file(entry.path().string())};
   if (!files.contains("/index.html"))
     throw Error(Fault::input, folder +
                                   ": there is no page of the studio; build it (docs/studio.md), or name its folder "

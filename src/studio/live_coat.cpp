@@ -63,7 +63,8 @@ Header stages_of(const Program& program) {
                     {"model", s.model_name},
                     {"size", s.size},
                     {"species", species_of(s.model)},
-                    {"parameters", described(s.model.parameters())}});
+                    {"parameters", described(s.model.parameters())},
+                    {"anisotropic", s.model.anisotropic()}});
   return list;
 }
 

@@ -1,10 +1,11 @@
 /** Painting on the surface: concentrations while they grow, masks and maps into the recipe's text. */
 
 import type { Vec3 } from "./protocol";
-import { addStroke, brushStrokes, removeBrush, unuseInStages, useInStages, type Stroke, type Use } from "./recipe-text";
+import { addDirections, addStroke, brushStrokes, directionStrokes, removeBrush, removeDirections, unuseInStages, useInStages } from "./recipe-text";
+import type { Stroke, Use } from "./recipe-text";
 import type { Studio } from "./studio";
 
-export type Tool = "orbit" | "brush" | "eraser" | "mask" | "size";
+export type Tool = "orbit" | "brush" | "eraser" | "mask" | "size" | "direction";
 
 /** The painted attributes, and how the stages use them. */
 export const maps: Record<"mask" | "size", { attribute: string; use: Use; tint: string; label: string }> = {
@@ -62,16 +63,16 @@ export class Brush {
     host.addEventListener("pointercancel", (event) => this.up(event), { capture: true });
     host.addEventListener("pointerleave", () => this.hover(null));
     studio.on("shape", () => this.onShape());
-    studio.on(["begun", "fine"], () => this.showMap());
-    studio.on("recipe", () => this.pointer === null && this.showMap());
+    studio.on(["begun", "fine"], () => this.show());
+    studio.on("recipe", () => this.pointer === null && this.show());
     studio.on("stage", () => this.onStage());
   }
 
   choose(tool: Tool): void {
     this.tool = tool;
     this.studio.scene.canvas.style.cursor = tool === "orbit" ? "" : "crosshair";
-    if (tool === "orbit") this.studio.scene.setRings([], 0);
-    this.showMap();
+    if (tool === "orbit" || tool === "direction") this.studio.scene.setRings([], 0);
+    this.show();
     this.studio.emit("tool");
   }
 
@@ -109,13 +110,14 @@ export class Brush {
 
   private hover(at: { x: number; y: number } | null): void {
     this.last = at;
-    if (this.tool === "orbit") return;
+    if (this.tool === "orbit" || this.tool === "direction") return;
     const hit = at && this.studio.begun ? this.studio.scene.pick(at.x, at.y) : null;
     this.studio.scene.setRings(hit ? this.mirrored(hit.point) : [], this.radius);
   }
 
   private down(event: PointerEvent): void {
     if (this.tool === "orbit" || event.button !== 0 || this.pointer !== null || !this.studio.begun) return;
+    if (this.tool === "direction" && !this.combed.length) return;
     if (event.target !== this.studio.scene.canvas) return;
     const hit = this.studio.scene.pick(event.clientX, event.clientY);
     if (!hit) return;
@@ -124,8 +126,13 @@ export class Brush {
     this.studio.scene.canvas.setPointerCapture(event.pointerId);
     this.points = [];
     this.sent = 0;
-    if (!isMap(this.tool)) this.studio.recordPaint(this.tool === "eraser" ? "eraser stroke" : "brush stroke");
-    this.add(hit.point);
+    if (this.tool === "brush" || this.tool === "eraser") this.studio.recordPaint(this.tool === "eraser" ? "eraser stroke" : "brush stroke");
+    this.add(this.placeOf(hit.point));
+  }
+
+  /** What becomes part of the recipe is painted on the shape as it was, and what grows on the one that is there. */
+  private placeOf(point: Vec3): Vec3 {
+    return isMap(this.tool) || this.tool === "direction" ? this.studio.scene.atStart(point) : point;
   }
 
   private move(event: PointerEvent): void {
@@ -136,8 +143,8 @@ export class Brush {
     if (event.pointerId !== this.pointer) return;
     this.last = { x: event.clientX, y: event.clientY };
     const hit = this.studio.scene.pick(event.clientX, event.clientY);
-    this.studio.scene.setRings(hit ? this.mirrored(hit.point) : [], this.radius);
-    if (hit) this.add(hit.point);
+    if (this.tool !== "direction") this.studio.scene.setRings(hit ? this.mirrored(hit.point) : [], this.radius);
+    if (hit) this.add(this.placeOf(hit.point));
   }
 
   private up(event: PointerEvent): void {
@@ -145,14 +152,17 @@ export class Brush {
     this.pointer = null;
     this.studio.scene.orbiting = true;
     if (isMap(this.tool)) this.finishMap(this.tool);
+    if (this.tool === "direction") this.finishDirection();
     if (event.pointerType === "touch") this.studio.scene.setRings([], 0);
   }
 
   private add(point: Vec3): void {
     const last = this.points[this.points.length - 1];
-    if (last && distance(last, point) < 0.25 * this.radius) return;
+    const apart = this.tool === "direction" ? 0.015 * (this.studio.info?.diagonal ?? 1) : 0.25 * this.radius;
+    if (last && distance(last, point) < apart) return;
     this.points.push(point);
     if (isMap(this.tool)) this.previewSegment(this.tool, last ?? point, point);
+    else if (this.tool === "direction") this.showDirections();
     else void this.send();
   }
 
@@ -191,12 +201,45 @@ export class Brush {
     return (this.studio.stage?.species ?? []).map((species) => [species, this.studio.rest.get(species) ?? 0]);
   }
 
+  /** The numbers of the stages whose diffusion follows directions. */
+  get combed(): number[] {
+    return (this.studio.begun?.stages ?? []).flatMap((stage, i) => (stage.anisotropic ? [i] : []));
+  }
+
+  /** The stroke in hand with its mirror images, as lines. */
+  private get lines(): Vec3[][] {
+    const images = this.points.map((point) => this.mirrored(point));
+    return (images[0] ?? []).map((_, i) => images.map((all) => all[i]!));
+  }
+
+  private finishDirection(): void {
+    const { lines, studio } = this;
+    this.points = [];
+    if (!lines[0] || lines[0].length < 2) return this.showDirections();
+    const text = this.combed.reduce((all, stage) => addDirections(all, stage, lines), studio.recipe);
+    studio.edit(text, { label: "direction stroke", change: "restart" });
+  }
+
+  clearDirections(): void {
+    const text = this.combed.reduce(removeDirections, this.studio.recipe);
+    this.studio.edit(text, { label: "clear the directions", change: "restart" });
+  }
+
+  /** The strokes of all stages, each once. */
+  get directions(): Vec3[][] {
+    const all = this.combed.flatMap((stage) => directionStrokes(this.studio.recipe, stage));
+    return [...new Map(all.map((stroke) => [JSON.stringify(stroke), stroke])).values()];
+  }
+
+  private showDirections(): void {
+    const shown = this.tool === "direction" ? [...this.directions, ...this.lines] : [];
+    this.studio.scene.setLines(shown, 0.0035 * (this.studio.info?.diagonal ?? 1));
+  }
+
   private finishMap(tool: "mask" | "size"): void {
     const { attribute, use, label } = maps[tool];
-    const images = this.points.map((point) => this.mirrored(point));
     let text = this.studio.recipe;
-    for (let i = 0; i < (images[0]?.length ?? 0); ++i) {
-      const points = images.map((all) => all[i]!);
+    for (const points of this.lines) {
       text = addStroke(text, attribute, { radius: this.radius, value: this.mapValue[tool], hardness: this.hardness, points });
     }
     this.studio.edit(useInStages(text, use), { label, change: "restart" });
@@ -207,9 +250,10 @@ export class Brush {
     this.studio.edit(removeBrush(unuseInStages(this.studio.recipe, use), attribute), { label: `clear the ${tool} map`, change: "restart" });
   }
 
-  /** Marks on the surface what the map of the tool in hand holds; nothing with other tools. */
-  private showMap(): void {
+  /** Marks on the surface what the tool in hand has painted into the recipe. */
+  private show(): void {
     const tool = this.tool;
+    this.showDirections();
     if (!isMap(tool)) {
       this.preview = null;
       return this.studio.scene.setPainted(null, "#000");
@@ -228,7 +272,7 @@ export class Brush {
   }
 
   private lay(stroke: Stroke): void {
-    const places = this.studio.scene.positions;
+    const places = this.studio.scene.startPositions;
     const values = this.preview;
     if (!values || values.length !== places.length / 3) return;
     const { points, radius, hardness, value } = stroke;
@@ -243,7 +287,8 @@ export class Brush {
 
   private showPreview(tool: "mask" | "size"): void {
     const bytes = Uint8Array.from(this.preview ?? [], (v) => Math.min(255, Math.abs(v) * 255));
-    this.studio.scene.setPainted(bytes, maps[tool].tint);
+    // Afterwards the pattern shows through.
+    this.studio.scene.setPainted(bytes, maps[tool].tint, this.pointer === null ? 0.35 : 0.7);
   }
 }
 

@@ -1,7 +1,15 @@
 /** Undo and redo: a stack of what was, each with the number under which the engine keeps the coat of that moment. */
 
+import type { View } from "./link";
+
 export interface Snapshot {
   label: string;
+  view: View;
+  /** What was grown; null where only the view changed. */
+  coat: Grown | null;
+}
+
+export interface Grown {
   recipe: string;
   shape: string;
   /** Number of the engine's kept state; null where there was no coat. */
@@ -26,11 +34,17 @@ export class History {
     this.future.length = 0;
   }
 
-  undo(present: (label: string) => Snapshot): Snapshot | null {
+  /** Notes a view that was turned; a look around takes nothing away from what can be redone. */
+  recordView(before: Snapshot): void {
+    if (this.future.length === 0) this.record(() => before, "view");
+  }
+
+  /** `present` tells what is there now, of the same kind as what comes back. */
+  undo(present: (wanted: Snapshot) => Snapshot): Snapshot | null {
     return this.move(this.past, this.future, present);
   }
 
-  redo(present: (label: string) => Snapshot): Snapshot | null {
+  redo(present: (wanted: Snapshot) => Snapshot): Snapshot | null {
     return this.move(this.future, this.past, present);
   }
 
@@ -42,11 +56,11 @@ export class History {
     return this.future[this.future.length - 1]?.label ?? null;
   }
 
-  private move(from: Snapshot[], to: Snapshot[], present: (label: string) => Snapshot): Snapshot | null {
+  private move(from: Snapshot[], to: Snapshot[], present: (wanted: Snapshot) => Snapshot): Snapshot | null {
     this.merging = null;
     const wanted = from.pop();
     if (!wanted) return null;
-    to.push(present(wanted.label));
+    to.push(present(wanted));
     return wanted;
   }
 }

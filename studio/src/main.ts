@@ -89,6 +89,7 @@ function palette(studio: Studio, brush: Brush, docks: Dock[]): HTMLElement {
 interface Actions {
   bare: () => void;
   turntable: () => void;
+  frame: () => void;
 }
 
 function viewButtons(studio: Studio): { node: HTMLElement; actions: Actions } {
@@ -104,12 +105,13 @@ function viewButtons(studio: Studio): { node: HTMLElement; actions: Actions } {
       studio.scene.turntable = !studio.scene.turntable;
       turnButton.setAttribute("aria-pressed", String(studio.scene.turntable));
     },
+    frame: () => studio.scene.moved(() => studio.scene.frame()),
   };
   bareButton.setAttribute("aria-pressed", "false");
   turnButton.setAttribute("aria-pressed", "false");
   bareButton.addEventListener("click", actions.bare);
   turnButton.addEventListener("click", actions.turntable);
-  frameButton.addEventListener("click", () => studio.scene.frame());
+  frameButton.addEventListener("click", actions.frame);
   return { node: el("div", { class: "view-buttons", role: "toolbar", "aria-label": "View" }, bareButton, turnButton, frameButton), actions };
 }
 
@@ -183,7 +185,7 @@ function keys(studio: Studio, brush: Brush, actions: Actions, toolbar: HTMLEleme
     r: () => studio.restart(),
     b: actions.bare,
     t: actions.turntable,
-    f: () => studio.scene.frame(),
+    f: actions.frame,
     "[": () => brush.setRadius(brush.radius / 1.2),
     "]": () => brush.setRadius(brush.radius * 1.2),
   };
@@ -237,6 +239,7 @@ async function main(): Promise<void> {
   scene.canvas.setAttribute("aria-label", "The coat on its shape. Arrow keys turn it, plus and minus come nearer and go away.");
   scene.canvas.setAttribute("role", "application");
   const studio = new Studio(engine, scene);
+  Object.assign(window, { studioFigures: () => scene.figures });
   stage.append(busySign(studio), statusLine(studio));
   if (embedded) {
     document.body.classList.add("embedded");
@@ -270,8 +273,7 @@ function furnish(studio: Studio, stage: HTMLElement): void {
   stage.append(toolbar, view.node, ruler(studio));
   document.body.append(topBar(studio, docks), left.node, stage, transport(studio), right.node, dropZone(studio));
   keys(studio, brush, view.actions, toolbar);
-  studio.scene.canvas.addEventListener("pointerup", () => studio.keep());
-  studio.scene.canvas.addEventListener("wheel", () => studio.keep(), { passive: true });
+  studio.scene.onMoved = (before) => studio.recordView(before);
 }
 
 void main();

@@ -81,6 +81,8 @@ export interface Stage {
   size: Maybe;
   species: string[];
   parameters: ModelParameter[];
+  /** Whether its diffusion follows directions. */
+  anisotropic: boolean;
 }
 
 export interface Begun extends Progress {
@@ -105,4 +107,21 @@ export interface Analysis {
 
 export interface Exported {
   losses?: string[];
+}
+
+export interface MapAxis {
+  parameter: string;
+  low: number;
+  high: number;
+  count: number;
+}
+
+export interface ParameterMap {
+  regimes: string[];
+}
+
+export interface MapTile {
+  outcome: "pattern" | "uniform" | "failed";
+  message?: string;
+  side: Maybe;
 }

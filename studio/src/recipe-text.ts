@@ -3,6 +3,8 @@
  * finds tables and keys, and where their values begin and end. What it cannot find it does not edit.
  */
 
+import type { Vec3 } from "./protocol";
+
 export interface Entry {
   key: string;
   start: number;
@@ -207,24 +209,24 @@ export function stageValue(text: string, stage: number, key: string): string | n
   return rawValue(text, stageSection(text, stage), key);
 }
 
-interface ParameterPlace {
+/** Where a stage has a group of keys, as `parameters`: in a table of their own, in braces, or with dotted names. */
+interface GroupPlace {
   table: Section | undefined;
   own: Section | undefined;
   inline: Entry | undefined;
 }
 
-function parameterPlace(text: string, stage: number): ParameterPlace {
+function groupPlace(text: string, stage: number, group: string): GroupPlace {
   const own = stageSection(text, stage);
-  const inline = own?.entries.find((entry) => entry.key === "parameters");
-  return { table: stageTable(text, stage, "parameters"), own, inline };
+  const inline = own?.entries.find((entry) => entry.key === group);
+  return { table: stageTable(text, stage, group), own, inline };
 }
 
-/** A parameter of a stage as it stands in the text, or null where the model's own value holds. */
-export function parameterValue(text: string, stage: number, name: string): string | null {
-  const { table, own, inline } = parameterPlace(text, stage);
+function groupValue(text: string, stage: number, group: string, name: string): string | null {
+  const { table, own, inline } = groupPlace(text, stage, group);
   if (table) return rawValue(text, table, name);
   const within = inline && inlineEntries(text, inline.valueStart).find((entry) => entry.key === name);
-  return within ? text.slice(within.valueStart, within.valueEnd) : rawValue(text, own, `parameters.${name}`);
+  return within ? text.slice(within.valueStart, within.valueEnd) : rawValue(text, own, `${group}.${name}`);
 }
 
 function setInline(text: string, inline: Entry, name: string, value: string): string {
@@ -236,14 +238,14 @@ function setInline(text: string, inline: Entry, name: string, value: string): st
   return replace(text, inline.valueStart, inline.valueEnd, `{ ${name} = ${value} }`);
 }
 
-/** Sets a parameter of a stage where the text has its parameters: in their table, in braces, or in new braces. */
-export function setParameter(text: string, stage: number, name: string, value: string): string {
-  const { table, own, inline } = parameterPlace(text, stage);
+/** Sets a key of a group where the text has it: in its table, in braces, or in new braces. */
+function setInGroup(text: string, stage: number, group: string, name: string, value: string): string {
+  const { table, own, inline } = groupPlace(text, stage, group);
   if (table) return setKey(text, table, name, value);
   if (!own) return text;
   if (inline) return setInline(text, inline, name, value);
-  if (own.entries.some((entry) => entry.key.startsWith("parameters."))) return setKey(text, own, `parameters.${name}`, value);
-  return setKey(text, own, "parameters", `{ ${name} = ${value} }`);
+  if (own.entries.some((entry) => entry.key.startsWith(`${group}.`))) return setKey(text, own, `${group}.${name}`, value);
+  return setKey(text, own, group, `{ ${name} = ${value} }`);
 }
 
 function removeInline(text: string, inline: Entry, name: string): string {
@@ -255,14 +257,27 @@ function removeInline(text: string, inline: Entry, name: string): string {
   return replace(text, start, end, "");
 }
 
-/** Takes a parameter out of a stage, so that the model's own value holds again. */
-export function removeParameter(text: string, stage: number, name: string): string {
-  const { table, own, inline } = parameterPlace(text, stage);
+function removeFromGroup(text: string, stage: number, group: string, name: string): string {
+  const { table, own, inline } = groupPlace(text, stage, group);
   if (table) return removeKey(text, table, name);
   if (!own) return text;
-  if (!inline) return removeKey(text, own, `parameters.${name}`);
+  if (!inline) return removeKey(text, own, `${group}.${name}`);
   if (inlineEntries(text, inline.valueStart).length > 1) return removeInline(text, inline, name);
-  return parameterValue(text, stage, name) === null ? text : removeKey(text, own, "parameters");
+  return groupValue(text, stage, group, name) === null ? text : removeKey(text, own, group);
+}
+
+/** A parameter of a stage as it stands in the text, or null where the model's own value holds. */
+export function parameterValue(text: string, stage: number, name: string): string | null {
+  return groupValue(text, stage, "parameters", name);
+}
+
+export function setParameter(text: string, stage: number, name: string, value: string): string {
+  return setInGroup(text, stage, "parameters", name, value);
+}
+
+/** Takes a parameter out of a stage, so that the model's own value holds again. */
+export function removeParameter(text: string, stage: number, name: string): string {
+  return removeFromGroup(text, stage, "parameters", name);
 }
 
 /** Sets a key above the first table. */
@@ -297,7 +312,7 @@ export function removeLookKey(text: string, key: string): string {
   return look ? removeKey(text, look, key) : text;
 }
 
-/** What a change of the text needs: nothing, other colours, new parameters while it grows, or a new start. */
+/** What a change of the text needs: nothing, other colours, new parameters or equations while it grows, or a new start. */
 export type Change = "none" | "look" | "keep" | "restart";
 
 interface Parts {
@@ -311,7 +326,8 @@ function split(text: string): Parts {
   for (const section of sections(text)) {
     const header = `[${section.name}]`;
     const isLook = section.name === "look" || section.name.startsWith("look.");
-    const kind = isLook ? "look" : section.name === "stage.parameters" ? "parameters" : "rest";
+    const whileGrowing = section.name === "stage.parameters" || section.name === "models";
+    const kind = isLook ? "look" : whileGrowing ? "parameters" : "rest";
     if (section.name && kind !== "parameters") parts[kind] += header;
     for (const entry of section.entries) {
       const line = `${entry.key}=${text.slice(entry.valueStart, entry.valueEnd)}\n`;
@@ -334,7 +350,7 @@ export interface Stroke {
   radius: number;
   value: number;
   hardness: number;
-  points: [number, number, number][];
+  points: Vec3[];
 }
 
 function brushSections(text: string, name: string): { head: Section; strokes: Section[] } | null {
@@ -352,9 +368,8 @@ function brushSections(text: string, name: string): { head: Section; strokes: Se
 }
 
 function strokeText(stroke: Stroke): string {
-  const points = stroke.points.map((point) => `[${point.map(numberText).join(", ")}]`).join(", ");
   const numbers = [`radius = "${numberText(stroke.radius)}u"`, `value = ${numberText(stroke.value)}`];
-  return `[[brush.stroke]]\n${numbers.join("\n")}\nhardness = ${numberText(stroke.hardness)}\npoints = [${points}]\n`;
+  return `[[brush.stroke]]\n${numbers.join("\n")}\nhardness = ${numberText(stroke.hardness)}\npoints = ${pointsText(stroke.points)}\n`;
 }
 
 /** Adds a stroke to the brush of this name, behind its others; the brush is made at the end where there is none. */
@@ -365,14 +380,33 @@ export function addStroke(text: string, name: string, stroke: Stroke): string {
   return insertLine(text, insertionPoint(text, last), strokeText(stroke).trimEnd());
 }
 
-function pointsValue(raw: string | null): [number, number, number][] {
+/** Arrays of numbers as TOML and JSON have them alike, but for comments and commas at the end. */
+function arrayValue(raw: string | null): unknown[] {
   try {
     const value: unknown = JSON.parse((raw ?? "[]").replace(/#[^\n]*/g, "").replace(/,(\s*\])/g, "$1"));
-    if (!Array.isArray(value)) return [];
-    return value.filter((p): p is [number, number, number] => Array.isArray(p) && p.length === 3 && p.every(Number.isFinite));
+    return Array.isArray(value) ? value : [];
   } catch {
     return [];
   }
+}
+
+const isPoint = (p: unknown): p is Vec3 => Array.isArray(p) && p.length === 3 && p.every(Number.isFinite);
+const pointsOf = (value: unknown): Vec3[] => (Array.isArray(value) ? value.filter(isPoint) : []);
+const pointsText = (points: Vec3[]): string => `[${points.map((point) => `[${point.map(numberText).join(", ")}]`).join(", ")}]`;
+
+/** The strokes that the anisotropic diffusion of a stage follows. */
+export function directionStrokes(text: string, stage: number): Vec3[][] {
+  return arrayValue(groupValue(text, stage, "directions", "strokes")).map(pointsOf).filter((stroke) => stroke.length > 1);
+}
+
+/** Adds strokes to those of a stage; what else its directions follow stays. */
+export function addDirections(text: string, stage: number, strokes: Vec3[][]): string {
+  const all = [...directionStrokes(text, stage), ...strokes].map(pointsText);
+  return setInGroup(text, stage, "directions", "strokes", `[${all.join(", ")}]`);
+}
+
+export function removeDirections(text: string, stage: number): string {
+  return removeFromGroup(text, stage, "directions", "strokes");
 }
 
 /** A length in world units: "0.03u", or a number, which is a fraction of the diagonal. */
@@ -387,7 +421,7 @@ export function brushStrokes(text: string, name: string, diagonal: number): Stro
     radius: worldLength(rawValue(text, section, "radius"), diagonal),
     value: numberValue(rawValue(text, section, "value")) ?? 1,
     hardness: numberValue(rawValue(text, section, "hardness")) ?? 0.5,
-    points: pointsValue(rawValue(text, section, "points")),
+    points: pointsOf(arrayValue(rawValue(text, section, "points"))),
   }));
 }
 
@@ -430,4 +464,34 @@ export function unuseInStages(text: string, use: Use): string {
     }
   }
   return text;
+}
+
+/** A model that the recipe holds, and where its own text stands in that of the recipe. */
+export interface OwnModel {
+  name: string;
+  start: number;
+  end: number;
+}
+
+/** The models of the recipe's own that stand between three quotes of the plain kind, in which nothing is escaped. */
+export function ownModels(text: string): OwnModel[] {
+  const table = sections(text).find((section) => section.name === "models");
+  return (table?.entries ?? []).flatMap(({ key, valueStart, valueEnd }) => {
+    if (!text.startsWith("'''", valueStart) || valueEnd - valueStart < 6) return [];
+    const lineBreak = /^\r?\n/.exec(text.slice(valueStart + 3))?.[0].length ?? 0;
+    return [{ name: key, start: valueStart + 3 + lineBreak, end: valueEnd - 3 }];
+  });
+}
+
+/** Puts a copy of a model's text into the recipe, and has the stage grow it. */
+export function addModel(text: string, stage: number, model: string, modelText: string): { text: string; name: string } {
+  const [base, variant] = model.split(":");
+  const taken = new Set(ownModels(text).map((one) => one.name));
+  let name = `my-${base!.replace(/^my-(.*?)(-\d+)?$/, "$1").replace(/[^A-Za-z0-9_-]/g, "-")}`;
+  for (let i = 2; taken.has(name); ++i) name = `${name.replace(/-\d+$/, "")}-${i}`;
+  text = setStageKey(text, stage, "model", quoted(variant ? `${name}:${variant}` : name));
+  const value = `'''\n${modelText.trimEnd()}\n'''`;
+  const table = sections(text).find((section) => section.name === "models");
+  if (table) return { text: setKey(text, table, name, value), name };
+  return { text: `${text.trimEnd()}\n\n[models]\n${name} = ${value}\n`, name };
 }

@@ -24,6 +24,15 @@ const skyStrength = 2.6;
 const roomStrength = 0.42;
 export const reducedMotion = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;
 
+/** Whether the browser has no graphics card to draw with, as the name of what draws tells. */
+function drawnByProcessor(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const names = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = gl && names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
 interface Uniforms {
   [name: string]: three.IUniform;
   bare: { value: number };
@@ -31,6 +40,7 @@ interface Uniforms {
   ringCount: { value: number };
   ringRadius: { value: number };
   tint: { value: three.Color };
+  tintStrength: { value: number };
 }
 
 /** The coat's bytes are sRGB; light is computed in linear numbers. The ring and what is masked are drawn by the surface itself. */
@@ -55,12 +65,12 @@ function dressMaterial(material: three.MeshStandardMaterial, uniforms: Uniforms)
         "#include <common>",
         `#include <common>
         varying vec4 vCoat; varying float vPainted; varying vec3 vPlace;
-        uniform float bare; uniform vec3 rings[${maxRings}]; uniform int ringCount; uniform float ringRadius; uniform vec3 tint;`,
+        uniform float bare; uniform vec3 rings[${maxRings}]; uniform int ringCount; uniform float ringRadius; uniform vec3 tint; uniform float tintStrength;`,
       )
       .replace(
         "#include <color_fragment>",
         `diffuseColor *= mix(vCoat, vec4(0.52, 0.50, 0.47, 1.0), bare);
-        diffuseColor.rgb = mix(diffuseColor.rgb, tint, 0.7 * vPainted);
+        diffuseColor.rgb = mix(diffuseColor.rgb, tint, tintStrength * vPainted);
         if (diffuseColor.a < 0.02) discard;`,
       )
       .replace(
@@ -86,6 +96,8 @@ void main() { gl_FragColor = vec4(normals ? normalize(up) : place, 1.0); }`;
 export class Scene {
   readonly canvas: HTMLCanvasElement;
   onView: () => void = () => undefined;
+  /** Called when the user has turned or moved the view, with what it was. */
+  onMoved: (before: View) => void = () => undefined;
   private readonly renderer: three.WebGLRenderer;
   private readonly scene = new three.Scene();
   private readonly camera = new three.PerspectiveCamera(30, 1, 0.01, 100);
@@ -98,6 +110,7 @@ export class Scene {
   private readonly key = new three.DirectionalLight(0xfff4e6, 1.25);
   private readonly rim = new three.DirectionalLight(0xdde8ff, 0.6);
   private readonly ground: three.Mesh;
+  private strokes = new three.InstancedMesh(new three.CylinderGeometry(1, 1, 1, 8), new three.MeshBasicMaterial({ color: 0xffd27d }), 0);
   private readonly pickScene = new three.Scene();
   private readonly pickMesh: three.Mesh;
   private readonly pickMaterial: three.ShaderMaterial;
@@ -108,12 +121,20 @@ export class Scene {
   private middle = new three.Vector3();
   private diagonal = 1;
   private up: "y" | "z" = "y";
+  /** Where the nodes were at the start, of a surface that has moved since. */
+  private start: Float32Array | null = null;
+  /** Where a processor draws, smooth edges wait until the picture stands still. */
+  private readonly slow = drawnByProcessor();
+  private sharp = false;
+  private stillFor = 0;
   private dirty = true;
+  private pictures = 0;
+  private readonly waiting: (() => void)[] = [];
   private continuous = false;
   private background = "studio";
 
   constructor(private readonly host: HTMLElement) {
-    this.renderer = new three.WebGLRenderer({ antialias: true, alpha: true, powerPreference: "high-performance" });
+    this.renderer = new three.WebGLRenderer({ antialias: !this.slow, alpha: true, powerPreference: "high-performance" });
     this.renderer.toneMapping = three.NeutralToneMapping;
     this.renderer.setClearColor(0, 0);
     this.renderer.shadowMap.enabled = true;
@@ -125,6 +146,7 @@ export class Scene {
       ringCount: { value: 0 },
       ringRadius: { value: 0 },
       tint: { value: new three.Color(0.1, 0.55, 0.9) },
+      tintStrength: { value: 0.7 },
     };
     dressMaterial(this.material, this.uniforms);
     this.mesh = new three.Mesh(new three.BufferGeometry(), this.material);
@@ -149,11 +171,13 @@ export class Scene {
     host.prepend(this.canvas);
     new ResizeObserver(() => this.resize()).observe(host);
     this.resize();
-    const tick = (): void => {
+    let last = performance.now();
+    const tick = (now: number): void => {
       requestAnimationFrame(tick);
-      this.draw();
+      this.draw((now - last) / 1000);
+      last = now;
     };
-    tick();
+    requestAnimationFrame(tick);
   }
 
   private furnish(): void {
@@ -173,6 +197,9 @@ export class Scene {
     controls.dampingFactor = 0.12;
     controls.autoRotateSpeed = 4;
     controls.addEventListener("change", () => this.touch());
+    let before = "";
+    controls.addEventListener("start", () => (before = JSON.stringify(this.view())));
+    controls.addEventListener("end", () => before !== JSON.stringify(this.view()) && this.onMoved(JSON.parse(before) as View));
     return controls;
   }
 
@@ -181,18 +208,43 @@ export class Scene {
     this.dirty = true;
   }
 
-  private draw(): void {
-    this.controls.update();
-    if (!this.dirty && !this.continuous) return;
+  private draw(seconds: number): void {
+    this.controls.update(seconds);
+    if (!this.dirty && !this.continuous) return this.sharpen(seconds);
+    if (this.sharp) this.setSharp(false);
     this.dirty = false;
+    this.stillFor = 0;
     this.renderer.render(this.scene, this.camera);
+    ++this.pictures;
     this.onView();
+    for (const told of this.waiting.splice(0)) told();
+  }
+
+  private sharpen(seconds: number): void {
+    this.stillFor += seconds;
+    if (!this.slow || this.sharp || this.stillFor < 0.5) return;
+    this.setSharp(true);
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  private setSharp(on: boolean): void {
+    this.sharp = on;
+    const usual = this.slow ? 1 : Math.min(2, devicePixelRatio || 1);
+    this.renderer.setPixelRatio(on ? 1.5 * usual : usual);
+  }
+
+  /** Resolves when what is there now has been drawn; where nothing is drawn, as in a tab behind others, a moment later. */
+  drawn(): Promise<void> {
+    return new Promise((resolve) => {
+      this.waiting.push(resolve);
+      setTimeout(resolve, 250);
+    });
   }
 
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.host;
     if (!width || !height) return;
-    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio || 1));
+    this.setSharp(false);
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
@@ -271,6 +323,7 @@ export class Scene {
   setMesh(positions: Float32Array, normals: Float32Array, triangles: Uint32Array, colors: Uint8Array): void {
     this.coarse?.dispose();
     this.coarse = null;
+    this.start = null;
     this.mesh.geometry.dispose();
     this.show(this.geometryOf(positions, normals, triangles, colors));
     this.setTransparent(colors);
@@ -312,6 +365,24 @@ export class Scene {
     return (attribute?.array ?? new Float32Array()) as Float32Array;
   }
 
+  /** Places of the nodes on the shape as it was at the start, to which the strokes of recipes belong. */
+  get startPositions(): Float32Array {
+    return this.coarse || !this.start ? this.positions : this.start;
+  }
+
+  /** Where a point of the surface was at the start: at its nearest node, where it has moved. */
+  atStart(point: Vec3): Vec3 {
+    if (!this.start) return point;
+    const now = (this.coarse ?? this.mesh.geometry).getAttribute("position").array;
+    let nearest = 0;
+    let least = Infinity;
+    for (let i = 0; i < now.length; i += 3) {
+      const away = (now[i]! - point[0]) ** 2 + (now[i + 1]! - point[1]) ** 2 + (now[i + 2]! - point[2]) ** 2;
+      if (away < least) [least, nearest] = [away, i];
+    }
+    return [this.start[nearest]!, this.start[nearest + 1]!, this.start[nearest + 2]!];
+  }
+
   private update(name: string, values: ArrayLike<number>): void {
     const attribute = this.mesh.geometry.getAttribute(name) as three.BufferAttribute | undefined;
     if (!attribute || attribute.array.length !== values.length) return;
@@ -336,14 +407,16 @@ export class Scene {
 
   movePositions(positions: Float32Array, normals: Float32Array): void {
     this.toCoarse();
+    this.start ??= this.positions.slice();
     this.update("position", positions);
     this.update("normal", normals);
     this.renderer.shadowMap.needsUpdate = true;
   }
 
   /** How strongly each node is marked as painted by a mask or map, from 0 to 255; null: nothing is marked. */
-  setPainted(values: Uint8Array | null, tint: string): void {
+  setPainted(values: Uint8Array | null, tint: string, strength = 0): void {
     this.uniforms.tint.value.set(tint);
+    this.uniforms.tintStrength.value = strength;
     this.update("painted", values ?? new Uint8Array(this.positions.length / 3));
   }
 
@@ -358,6 +431,35 @@ export class Scene {
     centres.slice(0, maxRings).forEach((centre, i) => this.uniforms.rings.value[i]!.set(...centre));
     this.uniforms.ringRadius.value = radius;
     this.touch();
+  }
+
+  /** Lines that lie on the surface, as round strokes of this radius. */
+  setLines(lines: Vec3[][], radius: number): void {
+    const segments = lines.flatMap((line) => line.slice(1).map((end, i) => [line[i]!, end] as const));
+    if (!segments.length && !this.strokes.count) return;
+    if (this.strokes.instanceMatrix.count < segments.length) this.makeStrokes(2 * segments.length);
+    const along = new three.Vector3();
+    const pose = new three.Object3D();
+    segments.forEach(([a, b], i) => {
+      along.set(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+      pose.position.set(...a).addScaledVector(along, 0.5);
+      pose.scale.set(radius, along.length() + radius, radius);
+      pose.quaternion.setFromUnitVectors(new three.Vector3(0, 1, 0), along.normalize());
+      pose.updateMatrix();
+      this.strokes.setMatrixAt(i, pose.matrix);
+    });
+    this.strokes.count = segments.length;
+    this.strokes.instanceMatrix.needsUpdate = true;
+    this.touch();
+  }
+
+  private makeStrokes(most: number): void {
+    const { geometry, material } = this.strokes;
+    this.scene.remove(this.strokes);
+    this.strokes.dispose();
+    this.strokes = new three.InstancedMesh(geometry, material, most);
+    this.strokes.frustumCulled = false;
+    this.scene.add(this.strokes);
   }
 
   setSurface(roughness: number, metalness: number): void {
@@ -415,6 +517,12 @@ export class Scene {
     return (2 * distance * Math.tan((this.camera.fov * Math.PI) / 360)) / (this.canvas.clientHeight || 1);
   }
 
+  /** What is held on the side of the GPU, and how many pictures were drawn: for tests and measurements. */
+  get figures(): Record<string, number> {
+    const { memory, programs } = this.renderer.info;
+    return { geometries: memory.geometries, textures: memory.textures, programs: programs?.length ?? 0, pictures: this.pictures };
+  }
+
   /** What lies under a place of the page: one pixel is drawn with positions and normals in place of colours. */
   pick(clientX: number, clientY: number): Hit | null {
     const box = this.canvas.getBoundingClientRect();
@@ -455,7 +563,14 @@ export class Scene {
     const move = moves[event.key];
     if (!move) return;
     event.preventDefault();
-    move();
+    this.moved(move);
+  }
+
+  /** Does something to the view that can be undone. */
+  moved(change: () => void): void {
+    const before = this.view();
+    change();
+    this.onMoved(before);
   }
 
   turn(around: number, over: number): void {

@@ -4,7 +4,7 @@
  */
 
 import { EngineError, type Answer, type Engine } from "./engine";
-import { History, type Snapshot } from "./history";
+import { History, type Grown, type Snapshot } from "./history";
 import type { Shared, View } from "./link";
 import type { Analysis, Begun, Catalog, Hello, Progress, ShapeInfo, Stage } from "./protocol";
 import * as toml from "./recipe-text";
@@ -38,6 +38,7 @@ export interface Series {
 
 /** Milliseconds of growth between two pictures; the slowest goes by single steps. */
 export const speeds = [0, 5, 12, 25, 50, 100, 200];
+const usualSpeed = 3;
 const rank: Record<Change, number> = { none: 0, look: 1, keep: 2, restart: 3 };
 const longestSeries = 600;
 
@@ -83,7 +84,7 @@ export class Studio {
   /** What each species is where nothing has grown: the median of its field at the start. */
   rest = new Map<string, number>();
   playing = false;
-  speed = 3;
+  speed = usualSpeed;
   busy = "";
   message = { text: "", bad: false };
   fault: EngineError | null = null;
@@ -100,7 +101,11 @@ export class Studio {
   private grace = 0;
   private looping = false;
   private pending: Change = "none";
-  private applying = false;
+  private tasks = 0;
+  private last: Promise<void> = Promise.resolve();
+  private drawn: Promise<void> = Promise.resolve();
+  /** Milliseconds until a picture is there, about. */
+  private drawTime = 0;
   private saveTimer = 0;
   private refineTimer = 0;
 
@@ -179,15 +184,11 @@ export class Studio {
     });
   }
 
-  /** Opens what a link holds, as a step that can be undone. */
-  async open(shared: Shared): Promise<void> {
-    try {
-      if (shared.shape !== this.shape.id) await this.chooseShape(this.builtin(shared.shape));
-      this.edit(shared.recipe, { label: "open a link", change: "restart" });
-      if (shared.view) this.scene.setView(shared.view);
-    } catch (error) {
-      this.fail(error);
-    }
+  /** Opens what a link holds, as steps that can be undone. */
+  open(shared: Shared): void {
+    if (shared.shape !== this.shape.id) void this.chooseShape(this.builtin(shared.shape), shared.view);
+    else if (shared.view) this.scene.setView(shared.view);
+    this.edit(shared.recipe, { label: "open a link", change: "restart" });
   }
 
   async recipeText(name: string): Promise<string> {
@@ -220,7 +221,7 @@ export class Studio {
     if (file.size > 1e9) return this.say(`${file.name} is larger than 1 GB, which is more than a page can hold.`, true);
     const choice = this.registerFile(file.name, new Uint8Array(await file.arrayBuffer()));
     await this.chooseShape(choice);
-    if (!(await keepFile({ name: choice.name, bytes: choice.bytes! }))) {
+    if (this.shape === choice && !(await keepFile({ name: choice.name, bytes: choice.bytes! }))) {
       this.say(`${file.name} is in use. It is too large to be kept for the next visit.`);
     }
   }
@@ -230,16 +231,18 @@ export class Studio {
     this.edit(await file.text(), { label: `open ${file.name}` });
   }
 
-  async chooseShape(choice: ShapeChoice): Promise<void> {
+  async chooseShape(choice: ShapeChoice, view: View | null = null): Promise<void> {
     const before = this.snapshot("shape");
-    try {
-      await this.loadShape(choice, null);
-    } catch (error) {
-      return this.fail(error, choice.name);
-    }
-    this.history.record(() => before);
-    this.emit("history");
-    this.request("restart");
+    await this.run(async () => {
+      try {
+        await this.loadShape(choice, view);
+      } catch (error) {
+        return this.fail(error, choice.name);
+      }
+      this.history.record(() => before);
+      this.emit("history");
+      this.request("restart");
+    });
   }
 
   private async loadShape(choice: ShapeChoice, view: View | null, asked?: Promise<ShapeInfo>): Promise<void> {
@@ -282,23 +285,25 @@ export class Studio {
 
   /** Notes what is to be done; if something is being done, the latest wish is done behind it. */
   private request(change: Change): void {
+    if (change === "none") return;
+    const first = this.pending === "none";
     if (rank[change] > rank[this.pending]) this.pending = change;
-    if (!this.applying) void this.apply();
+    if (!first) return;
+    void this.run(() => {
+      const wanted = this.pending;
+      this.pending = "none";
+      return this.grow(wanted);
+    });
   }
 
-  private async apply(): Promise<void> {
-    this.applying = true;
-    while (this.pending !== "none") {
-      const change = this.pending;
-      this.pending = "none";
-      try {
-        await this.grow(change);
-      } catch (error) {
-        this.fail(error);
-      }
-    }
-    this.applying = false;
-    this.go();
+  /** Does one thing after the other; the coat grows on when all are done. */
+  private run(task: () => Promise<void>): Promise<void> {
+    ++this.tasks;
+    const done = this.last.then(task).catch((error: unknown) => this.fail(error));
+    this.last = done.then(() => {
+      if (--this.tasks === 0) this.go();
+    });
+    return done;
   }
 
   private async grow(change: Change): Promise<void> {
@@ -405,17 +410,25 @@ export class Studio {
   private async loop(): Promise<void> {
     this.looping = true;
     while (this.playing) {
+      while (this.tasks > 0) await this.last;
       try {
-        await this.advance(this.speed === 0 ? { steps: 1, milliseconds: 1000 } : { milliseconds: speeds[this.speed]! });
+        await this.advance(this.slice());
       } catch (error) {
         this.playing = false;
         if (this.begun) this.fail(error, "The growth stopped");
       }
-      if (this.speed === 0 || document.hidden) await new Promise((resolve) => setTimeout(resolve, 60));
-      if (!this.applying && this.progress && !this.progress.running && --this.grace < 0) this.rested();
+      if (this.speed === 0) await new Promise((resolve) => setTimeout(resolve, 60));
+      if (this.tasks === 0 && this.progress && !this.progress.running && --this.grace < 0) this.rested();
     }
     this.looping = false;
     this.emit("playing");
+  }
+
+  /** How far to grow until the next picture: from the middle speed on, at least as long as a picture takes to be drawn. */
+  private slice(): Record<string, number> {
+    const wanted = speeds[this.speed]!;
+    if (wanted === 0) return { steps: 1, milliseconds: 1000 };
+    return { milliseconds: this.speed < usualSpeed ? wanted : Math.max(wanted, Math.min(200, this.drawTime)) };
   }
 
   private rested(): void {
@@ -437,7 +450,7 @@ export class Studio {
     const coat = this.begun;
     try {
       const { positions, normals, triangles, colors } = (await this.engine.ask("fine")).blocks;
-      if (coat !== this.begun || this.playing || this.applying) return;
+      if (coat !== this.begun || this.playing || this.tasks > 0) return;
       this.scene.setFine(positions as Float32Array, normals as Float32Array, triangles as Uint32Array, colors as Uint8Array);
       this.emit("fine");
     } catch {
@@ -449,10 +462,15 @@ export class Studio {
     const coat = this.begun;
     const before = { steps: this.progress?.steps ?? 0, at: performance.now() };
     const reply = await this.engine.ask<Progress>("advance", request);
+    await this.drawn; // the picture before, while the engine went on
     if (this.begun !== coat) return;
     const { colors, positions, normals } = reply.blocks;
     if (positions && normals) this.scene.movePositions(positions as Float32Array, normals as Float32Array);
     if (colors) this.scene.setColors(colors as Uint8Array);
+    const shown = performance.now();
+    this.drawn = this.scene.drawn().then(() => {
+      this.drawTime += 0.2 * (performance.now() - shown - this.drawTime);
+    });
     const speed = (1000 * (reply.steps - before.steps)) / Math.max(1, performance.now() - before.at);
     if (speed > 0) this.stepsPerSecond = this.stepsPerSecond ? 0.9 * this.stepsPerSecond + 0.1 * speed : speed;
     this.follow(reply);
@@ -495,7 +513,14 @@ export class Studio {
   private snapshot(label: string): Snapshot {
     const asked = this.begun ? this.engine.ask<{ state: number }>("keep_state") : null;
     const state = asked ? asked.then((reply) => reply.state).catch(() => null) : Promise.resolve(null);
-    return { label, recipe: this.recipe, shape: this.shape.id, state };
+    return { label, view: this.scene.view(), coat: { recipe: this.recipe, shape: this.shape.id, state } };
+  }
+
+  /** Notes that the view was another one. */
+  recordView(before: View): void {
+    this.history.recordView({ label: "turn the view", view: before, coat: null });
+    this.emit("history");
+    this.keep();
   }
 
   /** Notes the coat as it stands before something is painted on it. */
@@ -513,29 +538,37 @@ export class Studio {
   }
 
   undo(): void {
-    const wanted = this.history.undo((label) => this.snapshot(label));
-    if (wanted) void this.restore(wanted, "Undone");
+    this.restore(this.history.undo((wanted) => this.present(wanted)), "Undone");
   }
 
   redo(): void {
-    const wanted = this.history.redo((label) => this.snapshot(label));
-    if (wanted) void this.restore(wanted, "Done again");
+    this.restore(this.history.redo((wanted) => this.present(wanted)), "Done again");
   }
 
-  private async restore(wanted: Snapshot, word: string): Promise<void> {
-    this.recipe = wanted.recipe;
-    this.draft = null;
-    this.emit("recipe");
-    this.emit("history");
-    try {
-      if (wanted.shape !== this.shape.id) await this.loadShape(this.files.get(wanted.shape) ?? this.builtin(wanted.shape), null);
-      if (!(await this.restoreState(await wanted.state))) await this.grow("restart");
-      this.say(`${word}: ${wanted.label}.`);
-      this.go();
-    } catch (error) {
-      this.fail(error);
+  private present({ label, coat }: Snapshot): Snapshot {
+    return coat ? this.snapshot(label) : { label, view: this.scene.view(), coat: null };
+  }
+
+  private restore(wanted: Snapshot | null, word: string): void {
+    if (!wanted) return;
+    const { label, coat, view } = wanted;
+    if (coat) {
+      this.recipe = coat.recipe;
+      this.draft = null;
+      this.emit("recipe");
+      void this.run(() => this.restoreCoat(coat, view));
+    } else {
+      this.scene.setView(view);
     }
+    this.emit("history");
+    void this.run(async () => this.say(`${word}: ${label}.`));
     this.keep();
+  }
+
+  /** The view stays where one looks, unless the shape is another one. */
+  private async restoreCoat(coat: Grown, view: View): Promise<void> {
+    if (coat.shape !== this.shape.id) await this.loadShape(this.files.get(coat.shape) ?? this.builtin(coat.shape), view);
+    if (!(await this.restoreState(await coat.state))) await this.grow("restart");
   }
 
   /** Has the engine take back a state that it keeps; false where it no longer does. */

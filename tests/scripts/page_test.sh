@@ -11,4 +11,4 @@ sh "$1/tools/studio.sh" "$page"
 cd "$1"
 node --test tests/studio/unit.test.mjs
 PELAGE=$pelage PAGE=$page CHROMIUM=$(command -v chromium) node --test \
-  --test-name-pattern="${JOURNEY:-a parameter moves|what the page exports}" tests/studio/journey.test.mjs
+  --test-name-pattern="${JOURNEY:-a parameter moves|what the page exports as text}" tests/studio/journey.test.mjs

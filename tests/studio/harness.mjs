@@ -1,11 +1,13 @@
-// Starts an engine with the page, and a browser on it. PELAGE: the program; PAGE: folder of the built page;
-// CHROMIUM: the browser; SHOTS: folder for pictures of the steps, if wanted.
+// Starts an engine with the page, and a browser on it. PELAGE: the program; PAGE: folder of the built page; ENGINE=wasm: the
+// engine is the one in the page's folder, which a plain server of files serves, below a path; CHROMIUM: the browser; SHOTS:
+// folder for pictures of the steps, if wanted.
 import { spawn } from "node:child_process";
+import { createServer } from "node:http";
 import { createInterface } from "node:readline";
-import { mkdirSync, mkdtempSync, readdirSync, rmSync, statSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { extname, join, normalize } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const require = createRequire(fileURLToPath(new URL("../../studio/package.json", import.meta.url)));
@@ -14,10 +16,31 @@ export const axeSource = require("axe-core").source;
 
 export const program = process.env.PELAGE;
 export const page = process.env.PAGE;
+export const wasm = process.env.ENGINE === "wasm";
 const browserPath = process.env.CHROMIUM ?? "/usr/bin/chromium";
 
-/** Starts `pelage studio` and gives the link that it prints. */
-export async function startEngine() {
+const types = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm", ".png": "image/png" };
+
+/** Serves the page's folder as any server of files would, and gives a link to which `&s=` of a coat may be appended. */
+async function serveFiles() {
+  const server = createServer((request, response) => {
+    const path = normalize(new URL(request.url, "http://here").pathname.replace(/\/$/, "/index.html"));
+    try {
+      const bytes = readFileSync(join(page, path.replace("/some/folder/", "/")));
+      response.writeHead(200, { "Content-Type": types[extname(path)] ?? "application/octet-stream" }).end(bytes);
+    } catch {
+      response.writeHead(404).end();
+    }
+  });
+  await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
+  return { link: `http://127.0.0.1:${server.address().port}/some/folder/#`, stop: () => server.close() };
+}
+
+/** Starts the engine that is wanted and gives the link of the page with it. */
+export const startEngine = () => (wasm ? serveFiles() : startProgram());
+
+/** Starts `pelage studio`, which prints its link. */
+async function startProgram() {
   const child = spawn(program, ["studio", "--no-open", "--page", page], { stdio: ["ignore", "pipe", "inherit"] });
   const link = await new Promise((resolve, reject) => {
     child.on("exit", (code) => reject(new Error(`the program ended with ${code} before it printed its link`)));
@@ -61,7 +84,7 @@ export async function openTab(browser, link, { width = 1440, height = 900, touch
 export const text = (tab, selector) => tab.$eval(selector, (node) => node.textContent);
 
 /** Waits for a growth that has taken at least so many steps; gives how many. */
-export async function waitForSteps(tab, least, timeout = 60000) {
+export async function waitForSteps(tab, least, timeout = 120000) {
   const read = "Number(document.querySelectorAll('.readings dd')[2]?.textContent.replace(/,/g, ''))";
   await tab.waitForFunction(`${read} >= ${least}`, { timeout, polling: 100 });
   return tab.evaluate(read);

@@ -1,5 +1,5 @@
 // The studio as a person uses it, with real clicks and keys in a browser, on the real engine.
-// PELAGE=build/release/bin/pelage PAGE=out/studio node --test tests/studio/journey.test.mjs
+// PELAGE=build/release/bin/pelage PAGE=out/studio [ENGINE=wasm] node --test tests/studio/journey.test.mjs
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
@@ -42,14 +42,18 @@ async function typeRecipe(tab, text) {
 
 const quick = 'name = "quick"\nquality = "draft"\n\n[stage]\nmodel = "turing"\nsize = 0.12\n';
 
-async function quickCoat(tab) {
-  await h.waitForSteps(tab, 1);
-  await typeRecipe(tab, quick);
+async function growText(tab, text, name) {
+  await typeRecipe(tab, text);
   await h.pressKeys(tab, "Enter", "Control");
-  await tab.waitForFunction(() => document.querySelector(".what").textContent.includes("quick"));
+  await tab.waitForFunction((wanted) => document.querySelector(".what").textContent.includes(wanted), {}, name);
   await wait(300);
   await idle(tab);
   await h.waitForSteps(tab, 3);
+}
+
+async function quickCoat(tab) {
+  await h.waitForSteps(tab, 1);
+  await growText(tab, quick, "quick");
 }
 
 run("open, choose leopard, play, paint a mask, change the size, export, reload, undo", async () => {
@@ -193,6 +197,124 @@ run("a parameter moves while it grows; text with a fault is marked at its line",
   await close();
 });
 
+run("directions are combed where diffusion follows them, as lines, undone and redone", async () => {
+  const { tab, faults, close } = await h.openTab(browser, engine.link);
+  await quickCoat(tab);
+  await h.press(tab, "Comb directions");
+  assert.match(await h.text(tab, "#panel-paint"), /turing spreads the same in all directions/);
+  const coat = quick.replace('"turing"', '"witkin-kass-stripes"').replace("quick", "combed");
+  await growText(tab, coat, "combed");
+  await h.openPanel(tab, "paint");
+  await h.stroke(tab, [[0.4, 0.5], [0.5, 0.54], [0.6, 0.5]]);
+  await tab.waitForFunction(() => document.querySelector("#panel-paint").textContent.includes("1 stroke"));
+  const text = await recipeText(tab);
+  assert.match(text, /^directions = \{ strokes = \[\[\[[-\d., [\]]*\]\]\] \}$/m);
+  await wait(400);
+  await idle(tab);
+  await h.waitForSteps(tab, 3);
+  await wait(1500);
+  await h.shot(tab, "22-combed");
+  await tab.focus(".stage > canvas");
+  await h.pressKeys(tab, "z", "Control");
+  await tab.waitForFunction((t) => document.querySelector(".code").value === t, {}, coat);
+  await h.pressKeys(tab, "z", "Control", "Shift");
+  await tab.waitForFunction((t) => document.querySelector(".code").value === t, {}, text);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+run("a copy of a model is edited in the recipe, its faults marked at their line; equations change while it grows", async () => {
+  const { tab, faults, close } = await h.openTab(browser, engine.link);
+  await quickCoat(tab);
+  await h.openPanel(tab, "recipe");
+  await h.press(tab, "Edit a copy of turing");
+  await tab.waitForFunction(() => document.querySelector(".editor-head select").value === "my-turing");
+  const model = await recipeText(tab);
+  assert.match(model, /^(#.*\n)*name = "turing"/);
+  await idle(tab);
+  const line = model.split("\n").findIndex((one) => one.startsWith("rate")) + 1;
+  await typeRecipe(tab, model.replace(/^rate = "/m, 'rate = "nothing*'));
+  await tab.waitForFunction((n) => document.querySelector(".fault").textContent.startsWith(`Line ${n},`), {}, line);
+  await h.shot(tab, "23-own-model");
+  await typeRecipe(tab, model.replace(/^rate = "/m, 'rate = "0*t + '));
+  await tab.waitForFunction(() => document.querySelector(".fault").textContent === "");
+  await tab.select(".editor-head select", "");
+  await tab.waitForFunction(() => document.querySelector(".code").value.includes("0*t + "));
+  const text = await recipeText(tab);
+  assert.match(text, /model = "my-turing"/);
+  await wait(600);
+  await tab.reload();
+  await h.waitForSteps(tab, 1);
+  assert.equal(await recipeText(tab), text);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+run("the parameter map is clicked into and walked by keys; the coat goes on growing; the view is undone", async () => {
+  const { tab, faults, close } = await h.openTab(browser, engine.link);
+  await h.waitForSteps(tab, 1);
+  await growText(tab, quick.replace('"turing"', '"schnakenberg"').replace("quick", "mapped"), "mapped");
+  await h.openPanel(tab, "readout");
+  await tab.waitForFunction(() => [...document.querySelectorAll("#panel-readout .swatch")].length > 0, { timeout: 60000 });
+  const map = await tab.$(".map");
+  await map.evaluate((node) => node.scrollIntoView());
+  const box = await map.boundingBox();
+  const grown = await h.steps(tab);
+  await tab.mouse.click(box.x + 0.25 * box.width, box.y + 0.5 * box.height);
+  const parameters = async () => /parameters = \{ (\w+) = ([\d.]+), (\w+) = ([\d.]+) \}/.exec(await recipeText(tab));
+  const clicked = await parameters();
+  await tab.keyboard.press("ArrowRight");
+  const moved = await parameters();
+  assert.ok(Number(moved[2]) > Number(clicked[2]) && moved[4] === clicked[4], `${clicked} ${moved}`);
+  await wait(1000);
+  await h.waitForSteps(tab, grown);
+  await h.shot(tab, "24-map");
+  await tab.focus(".stage > canvas");
+  const before = (await saved(tab)).view;
+  await tab.keyboard.press("ArrowLeft");
+  await wait(500);
+  assert.notDeepEqual((await saved(tab)).view, before);
+  await h.pressKeys(tab, "z", "Control");
+  await wait(500);
+  const apart = (await saved(tab)).view.eye.map((v, i) => Math.abs(v - before.eye[i]));
+  assert.ok(Math.max(...apart) < 1e-6, String(apart));
+  assert.deepEqual(await parameters(), moved);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+run("twenty new starts and four meshes leave nothing behind", async () => {
+  const { tab, faults, close } = await h.openTab(browser, engine.link);
+  await h.waitForSteps(tab, 1);
+  await growText(tab, `${quick.replace("quick", "endless")}until = 1000000\n`, "endless"); // at rest there is a finer mesh, too
+  const held = async () => {
+    await wait(300);
+    await idle(tab);
+    await h.waitForSteps(tab, 1);
+    const { geometries, textures, programs } = await tab.evaluate(() => window.studioFigures());
+    return { geometries, textures, programs };
+  };
+  const anew = async () => {
+    await tab.keyboard.press("r");
+    await wait(100);
+    await idle(tab);
+  };
+  await tab.focus(".stage > canvas");
+  await anew();
+  const before = await held();
+  for (let i = 0; i < 20; ++i) await anew();
+  assert.deepEqual(await held(), before);
+  await h.openPanel(tab, "shape");
+  for (const shape of ["sphere", "torus", "sphere", "animal"]) {
+    await tab.click(`[data-shape="builtin:${shape}"]`);
+    await tab.waitForFunction((name) => document.querySelector(".what").textContent.includes(`on ${name}`), {}, shape);
+    await held();
+  }
+  assert.deepEqual(await held(), before);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
 run("a mesh of the user: opened, kept over a reload; a file that is none is told in words", async () => {
   const { tab, faults, close } = await h.openTab(browser, engine.link);
   await quickCoat(tab);
@@ -252,15 +374,30 @@ run("a link carries coat, shape and view; a hostile one is refused and nothing r
   await context.close();
 });
 
-run("what the page exports as text is what the command line grows", async () => {
-  const { tab, downloads, close } = await h.openTab(browser, engine.link);
-  await quickCoat(tab);
+/** A PLY without its comments, which say who made it. */
+function withoutComments(file) {
+  const text = readFileSync(file, "latin1");
+  const end = text.indexOf("end_header");
+  return text.slice(0, end).replace(/^comment.*\n/gm, "") + text.slice(end);
+}
+
+run("what the page exports as text grows the same coat on the command line, to the bit", async () => {
+  const { tab, faults, downloads, close } = await h.openTab(browser, engine.link);
+  await h.waitForSteps(tab, 1);
+  await typeRecipe(tab, `${quick}steps = 25\n`);
+  await h.pressKeys(tab, "Enter", "Control");
+  await tab.waitForFunction(() => document.querySelector(".status-word").textContent === "steps reached", { timeout: 60000 });
+  assert.equal(await h.steps(tab), 25);
   await h.openPanel(tab, "export");
   await h.press(tab, "Save the recipe");
   const file = await h.waitForFile(downloads, ".toml");
-  assert.equal(readFileSync(file, "utf8"), quick);
-  const out = join(downloads, "cli.ply");
-  execFileSync(h.program, ["grow", "builtin:animal", "--recipe", file, "-o", out], { stdio: "pipe" });
+  assert.equal(readFileSync(file, "utf8"), `${quick}steps = 25\n`);
+  await tab.click('[data-format=".ply"]');
+  const coat = withoutComments(await h.waitForFile(downloads, ".ply", 100000));
+  const own = join(downloads, "program.ply");
+  execFileSync(h.program, ["grow", "builtin:animal", "--recipe", file, "-o", own], { stdio: "pipe" });
+  assert.ok(coat === withoutComments(own));
+  assert.deepEqual(faults, []);
   await close();
 });
 

@@ -23,6 +23,7 @@ const link = await load("link");
 const toml = await load("recipe-text");
 const engine = await load("engine");
 const adjust = await load("panels/adjust");
+const map = await load("panels/map");
 const recipes = readdirSync(join(root, "recipes")).map((name) => [name, readFileSync(join(root, "recipes", name), "utf8")]);
 const pack = (text) => deflateRawSync(Buffer.from(text)).toString("base64url");
 
@@ -121,6 +122,46 @@ test("recipe text: the use of a map is put in and taken out", () => {
     assert.equal(toml.unuseInStages(used, use), text, name);
     for (let stage = 0; stage < toml.stageCount(text); ++stage) assert.match(toml.stageValue(used, stage, "mask"), /attribute\(bald\)/);
   }
+});
+
+test("recipe text: strokes of directions join what is there, and go again", () => {
+  const strokes = [[[0, 0, 0], [1, 0, 0.5]], [[0, 1, 0], [0, 2, 0], [0, 3, 0]]];
+  const stage = '[stage]\nmodel = "witkin-kass-2"\n';
+  for (const directions of ["", "directions = { axis = [0, 1, 0] } # up\n", "[stage.directions]\naxis = [0, 1, 0]\n"]) {
+    const text = stage + directions;
+    const once = toml.addDirections(text, 0, strokes.slice(0, 1));
+    const twice = toml.addDirections(once, 0, strokes.slice(1));
+    assert.deepEqual(toml.directionStrokes(twice, 0), strokes);
+    assert.equal(twice.includes("axis"), text.includes("axis"));
+    assert.equal(toml.removeDirections(twice, 0), text);
+    assert.equal(toml.changeBetween(once, twice), "restart");
+  }
+});
+
+test("recipe text: a copy of a model is the recipe's own, and its equations change while it grows", () => {
+  const model = 'name = "turing"\n[species.u]\nrate = "u - \\"v\\""\n';
+  let text = recipes.find(([name]) => name === "leopard.toml")[1];
+  const own = (name) => toml.ownModels(text).find((one) => one.name === name);
+  for (const [stage, asked, name, used] of [[0, "turing", "my-turing", "my-turing"], [1, "turing:spots", "my-turing-2", "my-turing-2:spots"], [1, "my-turing-2:spots", "my-turing-3", "my-turing-3:spots"]]) {
+    const added = toml.addModel(text, stage, asked, model);
+    assert.equal(added.name, name);
+    text = added.text;
+    assert.equal(toml.stringValue(toml.stageValue(text, stage, "model")), used);
+    assert.equal(text.slice(own(name).start, own(name).end), model);
+  }
+  assert.equal(toml.stageCount(text), 2, "tables within the text of a model are none of the recipe");
+  const { start } = own("my-turing-2");
+  assert.equal(toml.changeBetween(text, `${text.slice(0, start)}# a word\n${text.slice(start)}`), "keep");
+});
+
+test("parameter map: axes lie around what there is, within the ranges; it begins with the reaction", () => {
+  const parameter = (name, value, low, high, meaning = "") => ({ name, value, low, high, meaning });
+  assert.deepEqual(map.axisAround(parameter("F", 0.04, 0, 1), 0.04), { parameter: "F", low: 0.02, high: 0.06 });
+  assert.deepEqual(map.axisAround(parameter("p", -2, -2.5, 0), -2), { parameter: "p", low: -2.5, high: -1 });
+  const zero = map.axisAround(parameter("z", 0, null, 1), 0);
+  assert.ok(zero.low < zero.high && zero.high <= 1);
+  const all = [parameter("Da", 1, 0, null, "diffusion of a"), parameter("F", 1, 0, 1, "feed"), parameter("k", 1, 0, 1, "kill")];
+  assert.deepEqual(map.firstPair(all), ["F", "k"]);
 });
 
 test("messages: all kinds of blocks come back, at multiples of eight", () => {

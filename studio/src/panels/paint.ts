@@ -11,6 +11,7 @@ export const tools: { tool: Tool; label: string; key: string; help: string }[] =
   { tool: "eraser", label: "Erase to the rest", key: "3", help: "Sets all species to what they were before anything grew." },
   { tool: "mask", label: "Paint a mask", key: "4", help: "Nothing grows where it is painted. Strokes become part of the recipe; the coat begins anew." },
   { tool: "size", label: "Paint the size", key: "5", help: "Makes the pattern wider or finer where it is painted. Strokes become part of the recipe." },
+  { tool: "direction", label: "Comb directions", key: "6", help: "Diffusion follows the strokes, and between them the smoothest way from one to the next. Strokes become part of the recipe; the coat begins anew." },
 ];
 
 function speciesPart(studio: Studio, brush: Brush): HTMLElement {
@@ -73,6 +74,24 @@ function clearButton(studio: Studio, brush: Brush, tool: "mask" | "size"): HTMLE
   return el("div", { class: "inline spread" }, count, clear);
 }
 
+function directionPart(studio: Studio, brush: Brush): HTMLElement {
+  const why = el("p", { class: "quiet-text" });
+  const clear = button("Clear the strokes", { class: "small" });
+  clear.addEventListener("click", () => brush.clearDirections());
+  const count = el("span", { class: "quiet-text" });
+  const row = el("div", { class: "inline spread" }, count, clear);
+  studio.on(["recipe", "begun"], () => {
+    const models = [...new Set((studio.begun?.stages ?? []).map((stage) => stage.model))].join(" and ");
+    const [any, strokes] = [brush.combed.length > 0, brush.directions.length];
+    why.textContent = any ? "" : `There is nothing to comb here: ${models} spreads the same in all directions. Coats such as zebra, weave or parquet have directions.`;
+    why.hidden = any;
+    row.hidden = !any;
+    count.textContent = strokes ? `${strokes} stroke${strokes > 1 ? "s" : ""}` : "nothing combed yet";
+    clear.disabled = strokes === 0;
+  });
+  return el("div", {}, why, row);
+}
+
 function commonPart(studio: Studio, brush: Brush): HTMLElement {
   const place = el("div", {});
   let diagonal = 0;
@@ -105,7 +124,9 @@ function commonPart(studio: Studio, brush: Brush): HTMLElement {
     });
     planes.append(one);
   });
-  return el("div", {}, place, hardness.node, el("div", { class: "inline spread" }, el("span", { class: "label" }, "Mirror along"), planes));
+  const size = el("div", {}, place, hardness.node);
+  studio.on("tool", () => (size.hidden = brush.tool === "direction"));
+  return el("div", {}, size, el("div", { class: "inline spread" }, el("span", { class: "label" }, "Mirror along"), planes));
 }
 
 export function paintPanel(studio: Studio, brush: Brush): HTMLElement {
@@ -115,6 +136,7 @@ export function paintPanel(studio: Studio, brush: Brush): HTMLElement {
     brush: speciesPart(studio, brush),
     mask: maskPart(studio, brush),
     size: sizePart(studio, brush),
+    direction: directionPart(studio, brush),
   };
   const common = commonPart(studio, brush);
   const pick = el("div", { class: "rows" });

@@ -4,6 +4,7 @@ import { button, el } from "../dom";
 import { plot, shortNumber } from "../plot";
 import type { Analysis } from "../protocol";
 import type { Studio } from "../studio";
+import { parameterMap } from "./map";
 
 export const speciesColors = ["#e0a660", "#7fb2d9", "#9cc98a", "#d98ab0", "#c3b7e6", "#d8d27a"];
 
@@ -28,12 +29,14 @@ class Readout {
     const again = button("Ask again", { class: "small" });
     again.addEventListener("click", () => void this.analyse(true));
     this.theory.append(el("div", { class: "inline spread" }, el("h2", {}, "Linear theory"), again), this.dispersion.node, this.words);
-    this.node.append(el("div", { class: "scroll padded" }, el("h2", {}, "Growth"), this.change.node, this.ranges, this.theory));
+    const map = parameterMap(studio);
+    this.node.append(el("div", { class: "scroll padded" }, el("h2", {}, "Growth"), this.change.node, this.ranges, this.theory, map.node));
     studio.on("frame", () => this.draw(false));
     studio.on(["begun", "stage"], () => void this.analyse(false));
     new ResizeObserver(() => {
       this.draw(true);
       void this.analyse(false);
+      map.follow();
     }).observe(this.node);
   }
 

@@ -1,8 +1,8 @@
-/** The recipe as text: line numbers, colours, and faults at their place while one types. */
+/** The recipe as text, or a model that it holds: line numbers, colours, and faults at their place while one types. */
 
 import { button, download, el } from "../dom";
 import { EngineError } from "../engine";
-import { changeBetween } from "../recipe-text";
+import { addModel, changeBetween, ownModels, type OwnModel } from "../recipe-text";
 import type { Studio } from "../studio";
 
 const longestColoured = 40000;
@@ -26,7 +26,7 @@ function coloured(text: string): Node[] {
 
 class Editor {
   readonly node: HTMLElement;
-  private readonly area = el("textarea", { class: "code", "aria-label": "Text of the recipe", spellcheck: "false", autocapitalize: "off", autocomplete: "off", wrap: "off", "aria-describedby": "recipe-fault" });
+  private readonly area = el("textarea", { class: "code", "aria-label": "Text of the recipe or model", spellcheck: "false", autocapitalize: "off", autocomplete: "off", wrap: "off", "aria-describedby": "recipe-fault" });
   private readonly paper = el("pre", { class: "code-paper", "aria-hidden": "true" });
   private readonly gutter = el("pre", { class: "gutter", "aria-hidden": "true" });
   private readonly mark = el("div", { class: "fault-line", hidden: true });
@@ -35,21 +35,69 @@ class Editor {
   private timer = 0;
   private asked = 0;
   private typed = false;
+  /** The model whose text is shown; null: all of the recipe. */
+  private model: string | null = null;
+  private readonly parts = el("select", { "aria-label": "Text shown" });
+  private readonly copyButton = button("Edit a copy of its model", { class: "small" });
 
   constructor(private readonly studio: Studio) {
     const sheet = el("div", { class: "sheet" }, this.mark, this.paper, this.area);
     const frame = el("div", { class: "editor" }, this.gutter, sheet);
     const save = button("Save as file", { icon: "download", class: "small" });
-    save.addEventListener("click", () => download(`${studio.fileName}.toml`, this.area.value, "text/plain"));
+    save.addEventListener("click", () => download(`${studio.fileName}.toml`, this.whole, "text/plain"));
     this.growButton.title = "Ctrl+Enter";
     this.growButton.addEventListener("click", () => this.grow());
-    this.node = el("div", { class: "panel recipe" }, frame, el("div", { class: "editor-foot" }, this.fault, el("div", { class: "inline" }, this.growButton, save)));
+    this.parts.addEventListener("change", () => this.choose(this.parts.value || null));
+    this.copyButton.addEventListener("click", () => this.copyModel().catch((error: unknown) => studio.fail(error)));
+    const head = el("div", { class: "editor-head" }, this.parts, this.copyButton);
+    this.node = el("div", { class: "panel recipe" }, head, frame, el("div", { class: "editor-foot" }, this.fault, el("div", { class: "inline" }, this.growButton, save)));
     this.area.addEventListener("input", () => this.onInput());
     this.area.addEventListener("scroll", () => this.follow());
     this.area.addEventListener("keydown", (event) => this.onKey(event));
     studio.on("recipe", () => this.show());
     studio.on("fault", () => this.showFault(studio.fault));
-    studio.on("begun", () => this.buttons());
+    studio.on(["begun", "stage"], () => this.buttons());
+  }
+
+  private get whole(): string {
+    return this.studio.draft ?? this.studio.recipe;
+  }
+
+  /** Where the text that is shown stands in the recipe. */
+  private get place(): { start: number; end: number } {
+    return ownModels(this.whole).find((one) => one.name === this.model) ?? { start: 0, end: this.whole.length };
+  }
+
+  private choose(model: string | null): void {
+    this.model = model;
+    this.show();
+    this.area.scrollTop = 0;
+    this.area.focus();
+  }
+
+  /** The model that grows, as the recipe's own, to be changed. */
+  private async copyModel(): Promise<void> {
+    const { studio } = this;
+    const stage = studio.progress?.stage ?? 0;
+    const model = studio.begun?.stages[stage]?.model;
+    if (!model) return;
+    const base = model.split(":")[0]!;
+    const own = ownModels(this.whole).find((one) => one.name === base);
+    if (own) return this.choose(own.name);
+    const { text } = await studio.engine.ask<{ text: string }>("model_text", { name: base });
+    const added = addModel(this.whole, stage, model, text);
+    this.model = added.name;
+    studio.edit(added.text, { label: `copy of ${base}`, change: "keep" });
+    this.choose(added.name);
+  }
+
+  private showParts(models: OwnModel[]): void {
+    if (!models.some((one) => one.name === this.model)) this.model = null;
+    const wanted = ["", ...models.map((one) => one.name)];
+    if (JSON.stringify(wanted) !== JSON.stringify([...this.parts.options].map((option) => option.value))) {
+      this.parts.replaceChildren(...wanted.map((value) => el("option", { value }, value ? `Model ${value}` : "Recipe")));
+    }
+    this.parts.value = this.model ?? "";
   }
 
   private onKey(event: KeyboardEvent): void {
@@ -63,7 +111,9 @@ class Editor {
   }
 
   private show(): void {
-    const text = this.studio.draft ?? this.studio.recipe;
+    this.showParts(ownModels(this.whole));
+    const { start, end } = this.place;
+    const text = this.whole.slice(start, end);
     if (text !== this.area.value) {
       this.area.value = text;
       this.typed = false;
@@ -74,7 +124,9 @@ class Editor {
 
   private onInput(): void {
     this.typed = true;
-    this.studio.draft = this.area.value === this.studio.recipe ? null : this.area.value;
+    const { start, end } = this.place;
+    const text = this.whole.slice(0, start) + this.area.value + this.whole.slice(end);
+    this.studio.draft = text === this.studio.recipe ? null : text;
     this.studio.keep();
     this.paint();
     this.buttons();
@@ -84,7 +136,7 @@ class Editor {
 
   /** Asks whether the text is understood; new colours and parameters are taken at once. */
   private async check(): Promise<void> {
-    const text = this.area.value;
+    const text = this.whole;
     const asked = ++this.asked;
     try {
       await this.studio.check(text);
@@ -92,14 +144,14 @@ class Editor {
       if (asked === this.asked) this.showFault(error instanceof EngineError ? error : null, String(error));
       return;
     }
-    if (asked !== this.asked || text !== this.area.value) return;
+    if (asked !== this.asked || text !== this.whole) return;
     this.showFault(null);
     const change = changeBetween(this.studio.recipe, text);
     if (change !== "restart" && text !== this.studio.recipe) this.studio.edit(text, { label: "typing", change, merge: "typing" });
   }
 
   private grow(): void {
-    const text = this.area.value;
+    const text = this.whole;
     if (text === this.studio.recipe) this.studio.restart();
     else this.studio.edit(text, { label: "text", change: "restart" });
   }
@@ -108,6 +160,10 @@ class Editor {
     const waiting = this.studio.draft !== null && this.studio.draft !== this.studio.recipe;
     this.growButton.classList.toggle("waiting", waiting);
     this.growButton.querySelector("span")!.textContent = waiting ? "Grow this text" : "Grow anew";
+    const model = this.studio.stage?.model.split(":")[0] ?? "";
+    const own = ownModels(this.whole).some((one) => one.name === model);
+    this.copyButton.querySelector("span")!.textContent = own ? `Edit ${model}` : `Edit a copy of ${model}`;
+    this.copyButton.hidden = !model || this.model === model;
   }
 
   private paint(): void {
@@ -127,12 +183,15 @@ class Editor {
   }
 
   private showFault(fault: EngineError | null, otherwise = ""): void {
-    const line = fault?.line ?? null;
-    const place = line === null ? "" : `Line ${line}${fault?.column ? `, column ${fault.column}` : ""}: `;
+    const above = this.whole.slice(0, this.place.start).split("\n").length - 1;
+    const line = fault?.line === null || fault?.line === undefined ? null : fault.line - above;
+    const here = line !== null && line >= 1 && line <= this.area.value.split("\n").length;
+    const number = here ? line : `${fault?.line} of the recipe`;
+    const place = line === null ? "" : `Line ${number}${fault?.column ? `, column ${fault.column}` : ""}: `;
     this.fault.textContent = fault ? place + fault.message : otherwise;
     this.area.setAttribute("aria-invalid", String(fault !== null));
-    this.mark.hidden = line === null;
-    if (line !== null) this.mark.style.top = `calc(var(--code-pad) + ${line - 1} * var(--code-line))`;
+    this.mark.hidden = !here;
+    if (here) this.mark.style.top = `calc(var(--code-pad) + ${line - 1} * var(--code-line))`;
   }
 }
 
