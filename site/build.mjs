@@ -18,7 +18,7 @@ const reference = new Reference(root, site, program);
 for (const name of ["style.css", "mark.svg"]) copyFileSync(join(root, "site", name), join(folder, name));
 frontPage(root, site, reference);
 galleryPage(site, reference);
-figuresPage(root, site, program);
+figuresPage(root, site, reference);
 docs.guides();
 docs.pages();
 reference.pages();
@@ -30,4 +30,6 @@ if (found.length) {
   process.exit(1);
 }
 console.log(sizeLines(folder).join("\n"));
-if (!engine) console.log("The site has NO engine for browsers: its studio only says so. sh tools/wasm.sh makes one; then make the site again.");
+if (!engine) {
+  console.log("The site has NO engine for browsers: its studio only says so. sh tools/wasm.sh makes one; then make the site again.");
+}

@@ -15,6 +15,6 @@ fi
 rm -rf -- "$site"
 sh tools/studio.sh "$site/studio"
 cd site
-npm ci --no-audit --no-fund --loglevel=error
+[ node_modules/.package-lock.json -nt package-lock.json ] || npm ci --no-audit --no-fund --loglevel=error
 node build.mjs "$site" "$pelage"
 echo "the site is in $site"

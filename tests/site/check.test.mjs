@@ -39,16 +39,18 @@ test("a link that is broken in a page of the site is named", () => {
 });
 
 const good = '<a href="docs/other.html#there">x</a>';
+const nowhere = "docs/other.html#nowhere";
+const script = "https://example.org/x.js";
 for (const [what, body, expected] of [
   ["all right", `${good}<a href="https://example.org">x</a><img src="data:," alt="">`, []],
   ["a missing page", `${good}<a href="docs/none.html">x</a>`, ["index.html: docs/none.html leads nowhere"]],
   ["a folder", `${good}<a href="docs">x</a>`, ["index.html: docs leads nowhere"]],
-  ["a missing anchor", `${good}<a href="docs/other.html#nowhere">x</a>`, ["index.html: docs/other.html#nowhere names a place that the page does not have"]],
+  ["a missing anchor", `${good}<a href="${nowhere}">x</a>`, [`index.html: ${nowhere} names a place that the page does not have`]],
   ["an absolute path", `${good}<a href="/docs/other.html">x</a>`, ["index.html: /docs/other.html is not relative"]],
   ["a way out", `${good}<a href="../x.html">x</a>`, ["index.html: ../x.html leads out of the site"]],
   ["a missing picture", `${good}<img src="x.png" alt="">`, ["index.html: x.png leads nowhere"]],
   ["a picture without words", `${good}<img src="data:,">`, ['index.html: <img src="data:,"> has no words in its place']],
-  ["a script from elsewhere", `${good}<script src="https://example.org/x.js"></script>`, ["index.html: https://example.org/x.js is loaded from elsewhere"]],
+  ["a script from elsewhere", `${good}<script src="${script}"></script>`, [`index.html: ${script} is loaded from elsewhere`]],
   ["a page by itself", "", ["docs/other.html: no page leads there"]],
 ]) {
   test(`the check: ${what}`, () => assert.deepEqual(found(body), expected));
@@ -60,7 +62,20 @@ test("anchors are those of the hosts of repositories", () => {
 });
 
 test("a help text becomes lists, its examples stay lines", () => {
-  const html = helpBody("Do it\n\nUsage: pelage do [OPTIONS]\n\nOptions:\n  -o,--output FILE ...        File for it; may be\n                              given twice\n  --long-name SOMETHING LONG IN IT\n                              Takes <much>\n\nExamples:\n  pelage do it\n");
+  const printed = `Do it
+
+Usage: pelage do [OPTIONS]
+
+Options:
+  -o,--output FILE ...        File for it; may be
+                              given twice
+  --long-name SOMETHING LONG IN IT
+                              Takes <much>
+
+Examples:
+  pelage do it
+`;
+  const html = helpBody(printed);
   assert.match(html, /<p>Do it<\/p>/);
   assert.match(html, /<dt><code>-o,--output FILE ...<\/code><\/dt><dd>File for it; may be given twice<\/dd>/);
   assert.match(html, /<dt><code>--long-name SOMETHING LONG IN IT<\/code><\/dt><dd>Takes &lt;much&gt;<\/dd>/);

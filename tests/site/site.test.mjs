@@ -6,13 +6,24 @@ import { createReadStream, existsSync, readdirSync } from "node:fs";
 import { createServer } from "node:http";
 import { extname, join } from "node:path";
 import { after, before, test } from "node:test";
-import { axeSource, shot, startBrowser } from "../studio/harness.mjs";
+import { axeSource, shot, startBrowser, waitForSteps } from "../studio/harness.mjs";
 
 const folder = process.env.SITE;
 const prefix = "/in/a/folder/";
-const types = { ".html": "text/html; charset=utf-8", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml", ".png": "image/png", ".webp": "image/webp", ".wasm": "application/wasm" };
+const types = {
+  ".html": "text/html; charset=utf-8",
+  ".css": "text/css",
+  ".js": "text/javascript",
+  ".svg": "image/svg+xml",
+  ".png": "image/png",
+  ".webp": "image/webp",
+  ".wasm": "application/wasm",
+};
 const pages = readdirSync(folder, { recursive: true }).filter((name) => name.endsWith(".html") && !name.startsWith("studio/"));
-const kinds = ["index.html", "gallery.html", "figures.html", "guides.html", "docs/models.html", "commands/grow.html", "models/gray-scott.html", "recipes/leopard.html", "headers/grow.h.html", "source/examples/outside.html"];
+const kinds = [
+  ...["index.html", "gallery.html", "figures.html", "guides.html", "docs/models.html", "commands/grow.html"],
+  ...["models/gray-scott.html", "recipes/leopard.html", "headers/grow.h.html", "source/examples/outside.html"],
+];
 
 /** Of pages that one template fills every eighth is enough for axe-core, which takes most of the time. */
 const generated = pages.filter((name) => /^(commands|models|recipes|headers|source)\//.test(name)).sort();
@@ -70,7 +81,8 @@ const seriousFindings = (tab) =>
   tab.evaluate(async (source) => {
     if (!window.axe) new Function(source)();
     const { violations } = await window.axe.run(document, { resultTypes: ["violations"] });
-    return violations.filter(({ impact }) => impact === "serious" || impact === "critical").map(({ id, nodes }) => `${id}: ${nodes[0].html.slice(0, 200)}`);
+    const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
+    return serious.map(({ id, nodes }) => `${id}: ${nodes[0].html.slice(0, 200)}`);
   }, axeSource);
 
 test("every page: pictures, accessibility, no faults, nothing from elsewhere", async () => {
@@ -91,7 +103,7 @@ test("each kind of page: dark, and narrow without scrolling sideways", async () 
     await tab.goto(base + page);
     for (const [width, scheme] of [[1440, "light"], [1440, "dark"], [390, "light"], [390, "dark"]]) {
       await dress(tab, width, scheme);
-      if (scheme === "dark") assert.deepEqual(await seriousFindings(tab), [], `${page} ${width} ${scheme}`);
+      if (scheme === "dark" && width === 390) assert.deepEqual(await seriousFindings(tab), [], `${page} ${width} ${scheme}`);
       assert.ok(await tab.evaluate("document.scrollingElement.scrollWidth <= innerWidth"), `${page} is wider than ${width}`);
       await shot(tab, `${page.replaceAll("/", "-")}-${width}-${scheme}`);
     }
@@ -106,7 +118,8 @@ test("a click in the gallery opens the studio with that coat", async () => {
   await tab.goto(`${base}gallery.html`);
   await Promise.all([tab.waitForNavigation(), tab.click('img[alt^="zebra on"]')]);
   if (existsSync(join(folder, "studio/pelage-engine.wasm"))) {
-    await tab.waitForFunction("document.title.startsWith('zebra') && Number(document.querySelectorAll('.readings dd')[2]?.textContent) > 0", { timeout: 60000 });
+    await waitForSteps(tab, 1);
+    assert.match(await tab.title(), /^zebra /);
     assert.deepEqual(faults, []);
   } else {
     await tab.waitForFunction("document.querySelector('.message')?.textContent.includes('engine could not be started')");
