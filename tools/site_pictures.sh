@@ -19,6 +19,6 @@ for ground in light dark; do
 done
 small docs/studio.png 1200 site/studio.webp
 "$pelage" figures -o out/figures
-for picture in out/figures/*.png; do
-  small "$picture" 480 "site/figures/$(basename "$picture" .png).webp"
+for picture in $("$pelage" figures --json | sed -n 's/.*"picture": "\(.*\)\.png".*/\1/p'); do
+  small "out/figures/$picture.png" 480 "site/figures/$picture.webp"
 done
