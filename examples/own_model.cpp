@@ -23,7 +23,7 @@ end = 60
 
 int main() try {
   pelage::Recipe recipe;
-  recipe.models["mine"] = schnakenberg;
+  recipe.models["mine"].text = schnakenberg;
   pelage::Stage& stage = recipe.stages[0];
   stage.model.value = "mine";
   stage.parameters = {{"d", 30, {}}};

@@ -109,7 +109,12 @@ struct StudioServer::Parts {
       response.set_content("there is no such page\n", "text/plain");
       return;
     }
-    response.set_content(file->second.bytes, file->second.type.c_str());
+    // By a provider, as the library compresses contents, as well as it can: seconds, for a way inside this machine.
+    const std::string& bytes = file->second.bytes;
+    response.set_content_provider(bytes.size(), file->second.type.c_str(),
+                                  [&bytes](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+                                    return sink.write(bytes.data() + offset, length);
+                                  });
   }
   void answer(const httplib::Request& request, httplib::Response& response) {
     if (!allowed(request, response)) return;

@@ -131,15 +131,9 @@ std::string too_coarse(const TriangleMesh& shape, int size, double wavelength) {
                                            : "an atlas that stretches less would give more, see pelage unwrap");
 }
 
-bool has_uv(const TriangleMesh& shape) {
-  const Attribute* uv = shape.find("uv");
-  return uv && uv->components == 2 && uv->domain != Domain::face;
-}
-
 std::pair<ShapeFile, std::string> with_atlas(ShapeFile file, int size, const Progress& progress) {
-  const double margin = std::clamp(size / 512.0, 1.0, UnwrapOptions{}.margin);
   const PolygonMesh polygons = file.source ? file.source->polygons : polygons_of(file.mesh);
-  Unwrapped atlas = unwrap(polygons, {std::max(size, smallest_texture), margin}, progress);
+  Unwrapped atlas = unwrap(polygons, atlas_options(std::max(size, smallest_texture)), progress);
   std::string line = "the shape has no uv: it gets an atlas of " + counted(atlas.report.charts, "chart") +
                      ", as pelage unwrap makes it";
   return {with_attribute(std::move(file), std::move(atlas.uv)), std::move(line)};

@@ -47,9 +47,6 @@ std::vector<std::string> save_patches(const PatchTexture& texture, const std::st
 
 // --- surfaces ------------------------------------------------------------------------------------------
 
-/// Whether it has one that an image can lie on.
-bool has_uv(const TriangleMesh& shape);
-
 /// The shape with the atlas that pelage unwrap makes for images of that size, and a line that says so.
 std::pair<ShapeFile, std::string> with_atlas(ShapeFile file, int size, const Progress& progress);
 

@@ -159,9 +159,14 @@ struct Look {
   std::optional<int> detail;  ///< extra splits of every triangle into four, 0 to most_detail; default: as needed
 };
 
-/// Models of your own: the TOML text of each (docs/models.md) by the name that stages give it, "name:variant" for a
-/// variant of it. A name hides the built-in model that is called so.
-using ModelTexts = std::map<std::string, std::string>;
+/// A model of your own as TOML text (docs/models.md); `file` is the name for messages, without one that of the model.
+struct ModelText {
+  std::string text;
+  std::string file = {};
+};
+
+/// By the name that stages give it, "name:variant" for a variant of it. A name hides the built-in model called so.
+using ModelTexts = std::map<std::string, ModelText>;
 
 struct Recipe {
   std::string name;

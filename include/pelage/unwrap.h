@@ -21,6 +21,9 @@ struct UnwrapOptions {
   double margin = 4;      ///< between charts, in texels; half of it at the borders of the image
 };
 
+/// For square images of that size: with margins as wide as small ones need.
+UnwrapOptions atlas_options(int size);
+
 struct UnwrapReport {
   std::size_t charts = 0;
   double stretch = 1;        ///< L2 stretch (Sander, Snyder, Gortler, Hoppe 2001); 1 is an isometry

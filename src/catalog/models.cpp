@@ -235,6 +235,10 @@ ModelSource load_built_in(const std::string& name) {
                                               : hint));
 }
 
+const std::string& file_of(const ModelTexts::value_type& own) {
+  return own.second.file.empty() ? own.first : own.second.file;
+}
+
 }  // namespace
 
 ModelSource parse_model(std::string_view text, const std::string& file) { return model(parse_document(text, file)); }
@@ -257,7 +261,7 @@ ModelSource find_model(const std::string& name_or_path, const ModelTexts& texts)
   const std::size_t colon = name_or_path.rfind(':');
   const auto found = texts.find(name_or_path.substr(0, colon));
   if (found == texts.end()) return load_model(name_or_path);
-  const ModelSource source = parse_model(found->second, found->first);
+  const ModelSource source = parse_model(found->second.text, file_of(*found));
   return colon == std::string::npos ? source : with_variant(source, name_or_path.substr(colon + 1));
 }
 
@@ -265,7 +269,8 @@ Look model_look(const std::string& name_or_path, const ModelTexts& texts) {
   const std::size_t extension = name_or_path.rfind(".toml");
   const std::string name = extension == std::string::npos ? name_or_path.substr(0, name_or_path.find(':'))
                                                           : name_or_path.substr(0, extension + 5);
-  if (const auto text = texts.find(name); text != texts.end()) return look_of(parse_document(text->second, name));
+  if (const auto own = texts.find(name); own != texts.end())
+    return look_of(parse_document(own->second.text, file_of(*own)));
   if (const EmbeddedFile* file = find_embedded("models", name))
     return look_of(parse_document(file->text, std::string(file->path)));
   if (extension != std::string::npos) return look_of(read_document(name));

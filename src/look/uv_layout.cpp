@@ -293,4 +293,9 @@ double texel_length(const TriangleMesh& mesh, const Attribute& uv, int size, dou
   return 0;
 }
 
+bool has_uv(const TriangleMesh& shape) {
+  const Attribute* uv = shape.find("uv");
+  return uv && uv->components == 2 && uv->domain != Domain::face;
+}
+
 }  // namespace pelage

@@ -71,4 +71,7 @@ class UvLayout {
 /// have shorter ones. 0 where no face has an area in the image.
 double texel_length(const TriangleMesh& mesh, const Attribute& uv, int size, double share);
 
+/// Whether the mesh has uv on which an image can lie.
+bool has_uv(const TriangleMesh& shape);
+
 }  // namespace pelage

@@ -208,6 +208,25 @@ std::vector<Brush> read_brushes(const Value& list) {
   return brushes;
 }
 
+/// Whether stages can tell it from the path of a file and from a variant.
+bool names_a_model(const std::string& name) {
+  return !name.empty() &&
+         std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; });
+}
+
+/// [models]: each a text, which gets as many empty lines before it as make its lines those of the recipe.
+ModelTexts read_models(const Value& table) {
+  ModelTexts models;
+  for (const auto& [name, text] : table.entries()) {
+    if (!names_a_model(name))
+      throw Error(Fault::usage, "a model has a name of letters, digits, - and _, which \"" + name + "\" is not",
+                  text->where());
+    const Location& begin = text->text_where();
+    models[name] = {std::string(static_cast<std::size_t>(begin.line - 1), '\n') + text->string(), begin.file};
+  }
+  return models;
+}
+
 /// A dozen is much; each of them keeps its fields.
 constexpr std::size_t most_stages = 100;
 
@@ -311,6 +330,7 @@ Recipe read_recipe(const Value& document, const std::string& file) {
   read_text(document, "quality", recipe.quality);
   if (const Value* textures = document.find("texture")) recipe.textures = read_texture_files(*textures);
   if (const Value* brushes = document.find("brush")) recipe.brushes = read_brushes(*brushes);
+  if (const Value* models = document.find("models")) recipe.models = read_models(*models);
   recipe.stages = read_stages(document.at("stage"));
   read_solid(document, recipe.stages);
   if (const Value* motion = document.find("motion")) recipe.motion = read_motion(*motion);

@@ -481,18 +481,23 @@ CoatFields Run::fields() const {
   f.origin = stage_program().origin;
   f.seed = stage_program().seed;
   f.wavelength = std::ranges::min(program_->stages, {}, &StageProgram::size).size;
-  const auto add = [&](const std::string& name, const Vector& u, bool uniform) {
+  const auto add = [&](const std::string& name, const Vector& u) {
     f.species.push_back(name);
     f.coefficients.emplace_back(u.begin(), u.end());
-    f.uniform.push_back(uniform);
   };
   for (std::size_t k = 0; k < finished_.size(); ++k)
     for (std::size_t i = 0; i < finished_[k].fields.size(); ++i)
-      add(field_name(program_->stages[k].name, program_->stages[k].model.species_name(i)), finished_[k].fields[i],
-          false);
-  for (std::size_t i = 0; i < coefficients().size(); ++i)
-    add(stage_program().model.species_name(i), coefficients()[i], contrast(i) < uniform_contrast);
+      add(field_name(program_->stages[k].name, program_->stages[k].model.species_name(i)), finished_[k].fields[i]);
+  for (std::size_t i = 0; i < coefficients().size(); ++i) add(stage_program().model.species_name(i), coefficients()[i]);
+  f.uniform = uniform_species();
   return f;
+}
+
+std::vector<char> Run::uniform_species() const {
+  std::vector<char> uniform;
+  for (const FinishedStage& stage : finished_) uniform.resize(uniform.size() + stage.fields.size(), false);
+  for (std::size_t i = 0; i < coefficients().size(); ++i) uniform.push_back(contrast(i) < uniform_contrast);
+  return uniform;
 }
 
 double measured_wavelength(const SparseMatrix& mass, const SparseMatrix& stiffness, const Vector& u) {

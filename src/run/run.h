@@ -60,6 +60,8 @@ class Run {
   std::vector<double> amounts() const;
   /// The fields of all stages, to be dressed; of earlier ones "STAGE.SPECIES".
   CoatFields fields() const;
+  /// Per species of these, whether it shows no pattern; those of earlier stages count as patterns.
+  std::vector<char> uniform_species() const;
 
   /// Replaces the state of the stage by these coefficients, one field per species: steps begin anew from there, at the
   /// time that it is.

@@ -99,10 +99,38 @@ Rod rod(const Vec& a, const Vec& b, double radius_a, double radius_b, double ble
   return {a, b, radius_a, radius_b, blend, {(a + b) / 2, reach}};
 }
 
+// The last bits of sines and cube roots differ between mathematical libraries, and with them which edges a remeshing
+// flips. So that the animal is the same everywhere, angles come as numbers and roots are rounded correctly.
+
+struct Angle {
+  double cosine = 1, sine = 0;
+};
+
+Mat pitched(const Angle& a) {
+  Mat m = Mat::Identity();
+  m.topLeftCorner<2, 2>() << a.cosine, -a.sine, a.sine, a.cosine;
+  return m;
+}
+
+Mat yawed(const Angle& a) {
+  Mat m = Mat::Identity();
+  m(0, 0) = m(2, 2) = a.cosine;
+  m(0, 2) = a.sine;
+  m(2, 0) = -a.sine;
+  return m;
+}
+
+/// A step of Newton's from the library's root, its residual without rounding.
+double cube_root(double x) {
+  const double y = std::cbrt(x), square = y * y;
+  const double residual = std::fma(square, y, -x) + std::fma(y, y, -square) * y;
+  return y - residual / (3 * square);
+}
+
 /// An ellipsoid whose first axis is turned by `pitch` from +x towards +y and then by `yaw` from +x towards -z.
-Ball ball(const Vec& centre, const Vec& radii, double blend, double pitch = 0, double yaw = 0) {
-  const Mat turn = (Eigen::AngleAxisd(yaw, Vec::UnitY()) * Eigen::AngleAxisd(pitch, Vec::UnitZ())).toRotationMatrix();
-  const double size = std::cbrt(radii.prod()), reach = radii.maxCoeff() * (1 + blend / size);
+Ball ball(const Vec& centre, const Vec& radii, double blend, const Angle& pitch = {}, const Angle& yaw = {}) {
+  const Mat turn = yawed(yaw) * pitched(pitch);
+  const double size = cube_root(radii.prod()), reach = radii.maxCoeff() * (1 + blend / size);
   return {centre, radii.cwiseInverse().asDiagonal() * turn.transpose(), size, blend, {centre, reach}};
 }
 
@@ -124,8 +152,9 @@ void add_legs(Body& body) {
   add_leg(body, {0.31, 0.56, -0.155}, {0.29, sole, -0.19}, 0.13);
   add_leg(body, {-0.42, 0.46, 0.16}, {-0.50, sole, 0.20}, 0.125);
   add_leg(body, {-0.40, 0.46, -0.16}, {-0.34, sole, -0.20}, 0.125);
+  constexpr Angle raised = {0.955336489125606, 0.29552020666133955};  // 0.3 radians
   for (double side : {1.0, -1.0})
-    body.balls.push_back(ball({-0.38, 0.54, 0.165 * side}, {0.22, 0.25, 0.15}, 0.09, 0.3));
+    body.balls.push_back(ball({-0.38, 0.54, 0.165 * side}, {0.22, 0.25, 0.15}, 0.09, raised));
 }
 
 /// A string of overlapping balls along a cubic Bezier curve, close enough to melt into a smooth tube.
@@ -143,18 +172,19 @@ void add_tail(Body& body) {
 /// The head is built around its centre, symmetric in z, and then turned a little towards the viewer.
 void add_head(Body& body) {
   const Vec centre(0.67, 1.20, 0.03);
-  constexpr double yaw = -0.4;
-  const Mat turn = Eigen::AngleAxisd(yaw, Vec::UnitY()).toRotationMatrix();
-  auto add = [&](const Vec& offset, const Vec& radii, double blend, double pitch = 0) {
+  constexpr Angle yaw = {0.9210609940028851, -0.3894183423086505};      // -0.4 radians
+  constexpr Angle pricked = {0.9887710779360422, 0.14943813247359922};  // 0.15
+  const Mat turn = yawed(yaw);
+  auto add = [&](const Vec& offset, const Vec& radii, double blend, const Angle& pitch = {}) {
     body.balls.push_back(ball(centre + turn * offset, radii, blend, pitch, yaw));
   };
   add({0, 0, 0}, {0.29, 0.275, 0.31}, 0.12);          // skull
   add({0.26, -0.10, 0}, {0.17, 0.115, 0.15}, 0.06);   // muzzle
   add({0.40, -0.055, 0}, {0.045, 0.04, 0.06}, 0.03);  // nose
   for (double side : {1.0, -1.0}) {
-    add({0.08, -0.10, 0.18 * side}, {0.14, 0.13, 0.13}, 0.08);            // cheek
-    add({-0.05, 0.265, 0.225 * side}, {0.06, 0.125, 0.125}, 0.05, 0.15);  // ear
-    add({0.235, 0.06, 0.125 * side}, {0.05, 0.06, 0.052}, 0.03);          // eye
+    add({0.08, -0.10, 0.18 * side}, {0.14, 0.13, 0.13}, 0.08);               // cheek
+    add({-0.05, 0.265, 0.225 * side}, {0.06, 0.125, 0.125}, 0.05, pricked);  // ear
+    add({0.235, 0.06, 0.125 * side}, {0.05, 0.06, 0.052}, 0.03);             // eye
   }
 }
 

@@ -23,16 +23,9 @@ void require_surface(const CoatFields& fields, int size) {
                 "an image has from " + std::to_string(smallest) + " to " + std::to_string(largest) + " texels a side");
 }
 
-bool has_uv(const TriangleMesh& shape) {
-  const Attribute* uv = shape.find("uv");
-  return uv && uv->components == 2 && uv->domain != Domain::face;
-}
-
-/// Margins as wide as small images need.
 std::shared_ptr<const TriangleMesh> with_atlas(const TriangleMesh& shape, int size, const Progress& progress) {
   TriangleMesh mesh = shape;
-  const double margin = std::clamp(size / 512.0, 1.0, UnwrapOptions{}.margin);
-  mesh.set(unwrap(polygons_of(shape), {size, margin}, progress).uv);
+  mesh.set(unwrap(polygons_of(shape), atlas_options(size), progress).uv);
   return std::make_shared<const TriangleMesh>(std::move(mesh));
 }
 

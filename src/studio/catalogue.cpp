@@ -27,13 +27,6 @@ Header recipes() {
   return list;
 }
 
-Header parameters(const ModelSource& source) {
-  Header list = Header::array();
-  for (const ParameterSource& p : source.parameters)
-    list.push_back({{"name", p.name}, {"value", p.value}, {"low", p.min}, {"high", p.max}, {"meaning", p.help}});
-  return list;
-}
-
 Header models() {
   Header list = Header::array();
   for (const ModelEntry& entry : model_list()) {
@@ -47,7 +40,7 @@ Header models() {
                     {"summary", source.summary},
                     {"variants", variants},
                     {"species", species},
-                    {"parameters", parameters(source)}});
+                    {"parameters", described(source.parameters)}});
   }
   return list;
 }
@@ -95,6 +88,13 @@ Header optional_number(const std::optional<double>& value) { return value ? Head
 
 }  // namespace
 
+Header described(const std::vector<ParameterSource>& parameters) {
+  Header list = Header::array();
+  for (const ParameterSource& p : parameters)
+    list.push_back({{"name", p.name}, {"value", p.value}, {"low", p.min}, {"high", p.max}, {"meaning", p.help}});
+  return list;
+}
+
 Message catalogue() {
   Message m;
   m.header = {{"recipes", recipes()},           {"models", models()},         {"ramps", ramps()}, {"shapes", shapes()},
@@ -102,11 +102,15 @@ Message catalogue() {
   return m;
 }
 
-Message analysed(const Recipe& recipe, std::size_t stage) {
+Model planned_model(const Recipe& recipe, std::size_t stage) {
   const Plan planned = plan(recipe);
   if (stage >= planned.stages.size())
     throw Error(Fault::usage, "the recipe has " + std::to_string(planned.stages.size()) + " stages");
-  const Analysis a = analysis_of(planned.stages[stage].model);
+  return planned.stages[stage].model;
+}
+
+Message analysed(const Recipe& recipe, std::size_t stage) {
+  const Analysis a = analysis_of(planned_model(recipe, stage));
   Header conditions = Header::array();
   for (const Condition& c : a.conditions) conditions.push_back({{"text", c.text}, {"holds", c.holds}});
   Message m;

@@ -21,6 +21,7 @@
 #include "shape/scalar_attributes.h"
 #include "studio/catalogue.h"
 #include "studio/live_coat.h"
+#include "studio/parameter_plane.h"
 
 namespace pelage {
 
@@ -49,12 +50,21 @@ double number_of(const Header& request, const char* key, std::optional<double> o
   return found->get<double>();
 }
 
-std::size_t count_of(const Header& request, const char* key, std::optional<double> otherwise = {}) {
-  constexpr double most = 1e9;
+std::size_t count_of(const Header& request, const char* key, std::optional<double> otherwise = {}, double most = 1e9) {
   const double value = number_of(request, key, otherwise);
   if (!(value >= 0 && value <= most) || value != std::floor(value))
     refuse(std::string("expected a whole number as \"") + key + "\"");
   return static_cast<std::size_t>(value);
+}
+
+/// An axis of a map; of one value where there is nothing to go through.
+MapAxis axis_of(const Header& request, const char* key) {
+  constexpr double most = 64;
+  const Header axis = request.value(key, Header::object());
+  if (!axis.is_object()) refuse(std::string("expected a parameter with its range as \"") + key + "\"");
+  const double low = number_of(axis, "low");
+  const std::size_t count = count_of(axis, "count", 1, most);
+  return {text_of(axis, "parameter"), low, number_of(axis, "high", low), std::max(1, static_cast<int>(count))};
 }
 
 Point point_of(const Header& value) {
@@ -74,12 +84,22 @@ BrushStroke stroke_of(const Header& request) {
   return stroke;
 }
 
-/// With the models that come beside it, as texts by their names.
+/// A page may come with a recipe from anywhere, which has no folder to read from.
+void refuse_files(const Recipe& recipe) {
+  if (!recipe.textures.empty())
+    throw Error(Fault::usage, "the studio reads no files that recipes name: paint a map instead of the texture",
+                recipe.textures[0].name.where);
+  for (const Stage& stage : recipe.stages)
+    if (stage.model.value.find(".toml") != std::string::npos)
+      throw Error(
+          Fault::usage,
+          "the studio reads no files that recipes name: put the text of \"" + stage.model.value + "\" under [models]",
+          stage.model.where);
+}
+
 Recipe recipe_of(const Header& request) {
   Recipe recipe = parse_recipe(text_of(request, "recipe"), recipe_file);
-  if (const auto models = request.find("models"); models != request.end() && models->is_object())
-    for (const auto& [name, text] : models->items())
-      if (text.is_string()) recipe.models[name] = text.get<std::string>();
+  refuse_files(recipe);
   return recipe;
 }
 
@@ -183,6 +203,7 @@ struct StudioEngine::Parts {
   Message take_shape(const Message& request);
   Message begin(const Message& request);
   Message advance(const Message& request);
+  Message look(const Message& request);
   Message paint(const Message& request);
   Message keep_state(const Message&);
   Message restore_state(const Message& request);
@@ -222,6 +243,15 @@ Message StudioEngine::Parts::advance(const Message& request) {
   std::size_t done = 1;
   growing().advance([&] { return done++ < steps && Clock::now() < end && !stop_asked; });
   return coat->state();
+}
+
+/// The text goes on telling of the coat: what else has changed in it comes with the next `begin`.
+Message StudioEngine::Parts::look(const Message& request) {
+  const Recipe asked = recipe_of(request.header);
+  growing().show(asked);
+  recipe.look = asked.look;
+  text = request.header["recipe"];
+  return coat->colors();
 }
 
 Message StudioEngine::Parts::paint(const Message& request) {
@@ -293,11 +323,7 @@ std::string StudioEngine::handle(std::string_view bytes) {
       {"shape", [](Parts& p, const Message& m) { return p.take_shape(m); }},
       {"begin", [](Parts& p, const Message& m) { return p.begin(m); }},
       {"advance", [](Parts& p, const Message& m) { return p.advance(m); }},
-      {"look",
-       [](Parts& p, const Message& m) {
-         p.growing().show(recipe_of(m.header));
-         return p.growing().colors();
-       }},
+      {"look", [](Parts& p, const Message& m) { return p.look(m); }},
       {"field", [](Parts& p, const Message& m) { return p.growing().field(text_of(m.header, "species")); }},
       {"fine", [](Parts& p, const Message&) { return p.growing().fine(); }},
       {"paint", [](Parts& p, const Message& m) { return p.paint(m); }},
@@ -307,6 +333,17 @@ std::string StudioEngine::handle(std::string_view bytes) {
       {"restore_state", [](Parts& p, const Message& m) { return p.restore_state(m); }},
       {"analyse",
        [](Parts&, const Message& m) { return analysed(recipe_of(m.header), count_of(m.header, "stage", 0)); }},
+      {"parameter_map",
+       [](Parts&, const Message& m) {
+         return parameter_map(recipe_of(m.header), count_of(m.header, "stage", 0), axis_of(m.header, "x"),
+                              axis_of(m.header, "y"));
+       }},
+      {"map_tile",
+       [](Parts& p, const Message& m) {
+         return map_tile(recipe_of(m.header), count_of(m.header, "stage", 0), axis_of(m.header, "x"),
+                         axis_of(m.header, "y"), std::max<std::size_t>(8, count_of(m.header, "texels", 64, 512)),
+                         p.progress());
+       }},
       {"export", [](Parts& p, const Message& m) { return p.export_coat(m); }},
       {"check",
        [](Parts&, const Message& m) {

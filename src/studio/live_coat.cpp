@@ -11,24 +11,13 @@
 #include "run/stage_progress.h"
 #include "shape/vectors.h"
 #include "studio/baked_coat.h"
+#include "studio/catalogue.h"
 
 namespace pelage {
 
 namespace {
 
-/// A page may come with a recipe from anywhere, which has no folder to read from.
-void refuse_files(const Recipe& recipe) {
-  if (!recipe.textures.empty())
-    throw Error(Fault::usage, "the studio reads no files that recipes name: paint a map instead of the texture",
-                recipe.textures[0].name.where);
-  for (const Stage& stage : recipe.stages)
-    if (!recipe.models.contains(stage.model.value) && stage.model.value.find(".toml") != std::string::npos)
-      throw Error(Fault::usage, "the studio reads no files that recipes name: \"" + stage.model.value + "\"",
-                  stage.model.where);
-}
-
 Program bound(const ShapeFile& shape, const Recipe& recipe) {
-  refuse_files(recipe);
   ShapeFile own = shape;
   return bind_plan(plan(recipe), own);
 }
@@ -62,13 +51,6 @@ const char* name_of(RunStatus status) {
   return "running";
 }
 
-Header parameters_of(const Model& model) {
-  Header list = Header::array();
-  for (const ParameterSource& p : model.parameters())
-    list.push_back({{"name", p.name}, {"value", p.value}, {"low", p.min}, {"high", p.max}, {"meaning", p.help}});
-  return list;
-}
-
 Header species_of(const Model& model) {
   Header list = Header::array();
   for (std::size_t i = 0; i < model.species_count(); ++i) list.push_back(model.species_name(i));
@@ -82,7 +64,7 @@ Header stages_of(const Program& program) {
                     {"model", s.model_name},
                     {"size", s.size},
                     {"species", species_of(s.model)},
-                    {"parameters", parameters_of(s.model)}});
+                    {"parameters", described(s.model.parameters())}});
   return list;
 }
 
@@ -177,10 +159,8 @@ void LiveCoat::restore(const std::string& checkpoint) {
   follow_stage();
 }
 
-std::vector<char> LiveCoat::uniform() const { return run_.fields().uniform; }
-
 void LiveCoat::add_colors(Message& message) const {
-  message.blocks.push_back({"colors", view_colors(view_, paint_, uniform())});
+  message.blocks.push_back({"colors", view_colors(view_, paint_, run_.uniform_species())});
 }
 
 void LiveCoat::add_geometry(Message& message) const {
@@ -252,7 +232,7 @@ Message LiveCoat::fine() const {
   m.blocks = {{"positions", as_floats(t.samples.position)},
               {"normals", as_floats(t.samples.normal)},
               {"triangles", as_indices(t.triangles)},
-              {"colors", as_bytes(pelage::paint(t.samples, make_palette(paint_, t.samples, uniform())))}};
+              {"colors", as_bytes(pelage::paint(t.samples, make_palette(paint_, t.samples, run_.uniform_species())))}};
   return m;
 }
 

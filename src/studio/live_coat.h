@@ -15,8 +15,7 @@ namespace pelage {
 class LiveCoat {
  public:
   /// Of a recipe on a shape, from its start. With `before` the fields go on as they stand there where they can
-  /// (`kept`). Error as those of Growth (pelage/grow.h), and Error(Fault::usage), located, for a recipe that names
-  /// files.
+  /// (`kept`). Error as those of Growth (pelage/grow.h).
   LiveCoat(const ShapeFile& shape, const Recipe& recipe, const Progress& progress, const LiveCoat* before);
 
   bool kept() const { return kept_; }
@@ -54,7 +53,6 @@ class LiveCoat {
   std::size_t species_number(const std::string& name) const;
   void add_colors(Message& message) const;
   void add_geometry(Message& message) const;
-  std::vector<char> uniform() const;
 
   Run run_;
   bool kept_ = false;

@@ -123,4 +123,6 @@ Unwrapped unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Pr
   return result;
 }
 
+UnwrapOptions atlas_options(int size) { return {size, std::clamp(size / 512.0, 1.0, UnwrapOptions{}.margin)}; }
+
 }  // namespace pelage

@@ -2,7 +2,7 @@
 
 import { Brush, type Tool } from "./brush";
 import { button, el, icon } from "./dom";
-import { tokenOfAddress } from "./engine";
+import { Engine, tokenOfAddress } from "./engine";
 import { decodeLink, LinkError, type Shared } from "./link";
 import { adjustPanel } from "./panels/adjust";
 import { coatsPanel } from "./panels/coats";
@@ -15,7 +15,7 @@ import { shapePanel } from "./panels/shape";
 import { transport } from "./panels/transport";
 import { ruler } from "./ruler";
 import { Scene } from "./scene";
-import { Studio } from "./studio";
+import { open, Studio } from "./studio";
 import { dock, type Dock } from "./tabs";
 
 const embedded = new URLSearchParams(location.search).has("embed");
@@ -229,12 +229,14 @@ function embedPlayer(studio: Studio, stage: HTMLElement): HTMLElement {
 }
 
 async function main(): Promise<void> {
+  const { shared, refused } = await sharedOfAddress();
+  const engine = Engine.ofPage();
+  const opening = open(engine, shared);
   const stage = el("main", { class: "stage", id: "stage" });
   const scene = new Scene(stage);
   scene.canvas.setAttribute("aria-label", "The coat on its shape. Arrow keys turn it, plus and minus come nearer and go away.");
   scene.canvas.setAttribute("role", "application");
-  const studio = new Studio(scene);
-  const { shared, refused } = await sharedOfAddress();
+  const studio = new Studio(engine, scene);
   stage.append(busySign(studio), statusLine(studio));
   if (embedded) {
     document.body.classList.add("embedded");
@@ -242,7 +244,7 @@ async function main(): Promise<void> {
   } else {
     furnish(studio, stage);
   }
-  await studio.start(shared);
+  await studio.start(opening);
   if (refused) studio.say(refused, true);
   addEventListener("pagehide", () => !embedded && studio.keepNow());
   addEventListener("hashchange", () => void sharedOfAddress().then(({ shared: next, refused: why }) => (next ? studio.open(next) : why && studio.say(why, true))));

@@ -20,6 +20,8 @@ export const backgrounds: Record<string, [string, string]> = {
 };
 
 const maxRings = 8;
+const skyStrength = 2.6;
+const roomStrength = 0.42;
 export const reducedMotion = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;
 
 interface Uniforms {
@@ -91,6 +93,8 @@ export class Scene {
   private readonly material = new three.MeshStandardMaterial({ roughness: 0.75, metalness: 0, side: three.DoubleSide });
   private readonly uniforms: Uniforms;
   private mesh: three.Mesh<three.BufferGeometry, three.MeshStandardMaterial>;
+  /** What a room sheds on a matt surface, as `room` has it: its irradiance by spherical harmonics, kept to two colours. */
+  private readonly sky = new three.HemisphereLight(0xffffff, new three.Color(0.24, 0.24, 0.24), skyStrength);
   private readonly key = new three.DirectionalLight(0xfff4e6, 1.25);
   private readonly rim = new three.DirectionalLight(0xdde8ff, 0.6);
   private readonly ground: three.Mesh;
@@ -100,6 +104,7 @@ export class Scene {
   private readonly pickTarget: three.WebGLRenderTarget;
   /** The mesh on which it grows, where a finer one is shown. */
   private coarse: three.BufferGeometry | null = null;
+  private room: three.Texture | null = null;
   private middle = new three.Vector3();
   private diagonal = 1;
   private up: "y" | "z" = "y";
@@ -112,7 +117,6 @@ export class Scene {
     this.renderer.toneMapping = three.NeutralToneMapping;
     this.renderer.setClearColor(0, 0);
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = three.VSMShadowMap;
     this.renderer.shadowMap.autoUpdate = false;
     this.canvas = this.renderer.domElement;
     this.uniforms = {
@@ -153,18 +157,13 @@ export class Scene {
   }
 
   private furnish(): void {
-    const pmrem = new three.PMREMGenerator(this.renderer);
-    this.scene.environment = pmrem.fromScene(new RoomEnvironment(), 0.04).texture;
-    this.scene.environmentIntensity = 0.42;
-    pmrem.dispose();
     this.key.castShadow = true;
     this.key.shadow.mapSize.set(1024, 1024);
-    this.key.shadow.radius = 7;
-    this.key.shadow.blurSamples = 14;
+    this.key.shadow.radius = 5;
     this.mesh.castShadow = this.mesh.receiveShadow = true;
     this.mesh.frustumCulled = this.pickMesh.frustumCulled = false;
     this.ground.receiveShadow = true;
-    this.scene.add(this.mesh, this.ground, this.key, this.key.target, this.rim, this.rim.target);
+    this.scene.add(this.mesh, this.ground, this.sky, this.key, this.key.target, this.rim, this.rim.target);
     this.pickScene.add(this.pickMesh);
   }
 
@@ -233,6 +232,8 @@ export class Scene {
       (this.up === "y" ? new three.Vector3(x, up, toward) : new three.Vector3(x, -toward, up)).multiplyScalar(d).add(this.middle);
     this.key.position.copy(at(0.9, 1.9, 1.2));
     this.rim.position.copy(at(-1.4, 0.9, -1.3));
+    this.sky.position.copy(at(0, 0.72, 0.69).sub(this.middle));
+    this.scene.environmentRotation.x = this.up === "y" ? 0 : Math.PI / 2;
     this.key.target.position.copy(this.middle);
     this.rim.target.position.copy(this.middle);
     const shadow = this.key.shadow.camera;
@@ -362,11 +363,24 @@ export class Scene {
   setSurface(roughness: number, metalness: number): void {
     this.material.roughness = Math.min(1, Math.max(0.02, roughness));
     this.material.metalness = Math.min(1, Math.max(0, metalness));
+    this.reflectRoom(roughness < 0.6 || metalness > 0.05);
     this.touch();
   }
 
+  /** Only what shines needs a room to mirror, whose blurred images take seconds to make where a processor draws. */
+  private reflectRoom(on: boolean): void {
+    if (on && !this.room) {
+      const pmrem = new three.PMREMGenerator(this.renderer);
+      this.room = pmrem.fromScene(new RoomEnvironment(), 0.04).texture;
+      pmrem.dispose();
+    }
+    this.scene.environment = on ? this.room : null;
+    this.sky.visible = !on;
+  }
+
   setLight(strength: number): void {
-    this.scene.environmentIntensity = 0.42 * strength;
+    this.scene.environmentIntensity = roomStrength * strength;
+    this.sky.intensity = skyStrength * strength;
     this.key.intensity = 1.25 * strength;
     this.rim.intensity = 0.6 * strength;
     this.touch();

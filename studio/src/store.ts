@@ -55,7 +55,7 @@ function database(): Promise<IDBDatabase> {
   });
 }
 
-interface KeptFile {
+export interface KeptFile {
   name: string;
   bytes: Uint8Array;
 }

@@ -3,13 +3,14 @@
  * call its methods and listen to its topics; they know nothing of each other.
  */
 
-import { Engine, EngineError, type Answer } from "./engine";
+import { EngineError, type Answer, type Engine } from "./engine";
 import { History, type Snapshot } from "./history";
 import type { Shared, View } from "./link";
 import type { Analysis, Begun, Catalog, Hello, Progress, ShapeInfo, Stage } from "./protocol";
-import { changeBetween, stringValue, topValue, type Change } from "./recipe-text";
+import * as toml from "./recipe-text";
+import type { Change } from "./recipe-text";
 import { reducedMotion, type Scene } from "./scene";
-import { keepFile, keptFile, load, save, type Saved } from "./store";
+import { keepFile, keptFile, load, save, type KeptFile, type Saved } from "./store";
 
 export type Topic = "ready" | "recipe" | "shape" | "begun" | "frame" | "stage" | "playing" | "busy" | "history" | "fine" | "message" | "fault" | "tool";
 
@@ -43,8 +44,31 @@ const longestSeries = 600;
 const newSeries = (): Series => ({ earlier: 0, time: [], change: [], ranges: new Map() });
 const asError = (error: unknown): Error => (error instanceof Error ? error : new Error(String(error)));
 
+function askShape(engine: Engine, { id, name, bytes }: ShapeChoice): Promise<ShapeInfo> {
+  return engine.ask<ShapeInfo>("shape", { name: bytes ? name : id }, bytes ? { bytes } : {});
+}
+
+/** What the page begins with, and the shape of it, which the engine makes while the page is laid out. */
+export interface Opening {
+  shared: Shared | null;
+  saved: Partial<Saved>;
+  /** Of a built-in shape, if the user's own file is not there. */
+  shape: string;
+  file: Promise<KeptFile | null>;
+  info: Promise<ShapeInfo>;
+}
+
+export function open(engine: Engine, shared: Shared | null): Opening {
+  const saved = load();
+  const wanted = (shared ?? saved).shape ?? "";
+  const shape = wanted.startsWith("builtin:") ? wanted : "builtin:animal";
+  const file = wanted.startsWith("file:") ? keptFile() : Promise.resolve(null);
+  const info = file.then((kept) => askShape(engine, { id: shape, name: kept?.name ?? shape, bytes: kept?.bytes ?? null }));
+  info.catch(() => undefined); // told where it is waited for
+  return { shared, saved, shape, file, info };
+}
+
 export class Studio {
-  readonly engine = Engine.ofPage();
   hello: Hello | null = null;
   catalog: Catalog | null = null;
   recipe = "";
@@ -80,7 +104,10 @@ export class Studio {
   private saveTimer = 0;
   private refineTimer = 0;
 
-  constructor(readonly scene: Scene) {}
+  constructor(
+    readonly engine: Engine,
+    readonly scene: Scene,
+  ) {}
 
   on(topic: Topic | Topic[], listener: () => void): void {
     for (const one of Array.isArray(topic) ? topic : [topic]) {
@@ -114,9 +141,12 @@ export class Studio {
 
   // ---- Beginning ----
 
-  /** Greets the engine and begins with what a link holds, what was saved, or the leopard. */
-  async start(shared: Shared | null): Promise<void> {
-    const saved = load();
+  /**
+   * Begins with what a link holds, what was saved, or the leopard as a draft. The order is that of a quick opening: the
+   * shape was asked for before the page was laid out, and the lists are shown while the engine lays the mesh.
+   */
+  async start(opening: Opening): Promise<void> {
+    const { shared, saved } = opening;
     this.background = saved.background ?? this.background;
     this.light = saved.light ?? this.light;
     this.speed = Math.min(speeds.length - 1, Math.max(0, Math.round(saved.speed ?? this.speed)));
@@ -124,31 +154,29 @@ export class Studio {
     this.scene.setLight(this.light);
     this.setBusy("Starting the engine");
     try {
-      this.hello = await this.engine.ask<Hello>("hello");
-      this.catalog = await this.engine.ask<Catalog>("catalog");
+      this.draft = shared ? null : (saved.draft ?? null);
+      this.recipe = (shared ?? saved).recipe ?? toml.setTopKey(await this.recipeText("leopard"), "quality", '"draft"');
+      this.emit("recipe");
+      await this.firstShape(opening);
+      const asked = [this.engine.ask<Hello>("hello"), this.engine.ask<Catalog>("catalog")] as const;
+      this.request("restart");
+      [this.hello, this.catalog] = await Promise.all(asked);
       this.emit("ready");
-      await this.first(shared, saved);
     } catch (error) {
       this.setBusy("");
       this.fail(error, "The studio could not start");
     }
   }
 
-  private async first(shared: Shared | null, saved: Partial<Saved>): Promise<void> {
-    const begin = shared ?? saved;
-    this.recipe = begin.recipe ?? (await this.recipeText("leopard"));
-    this.draft = shared ? null : (saved.draft ?? null);
-    this.emit("recipe");
-    const view = begin.view ?? null;
-    await this.loadShape(await this.savedShape(begin.shape ?? "builtin:animal"), view);
-    await this.grow("restart");
-    this.go();
-  }
-
-  private async savedShape(id: string): Promise<ShapeChoice> {
-    const file = id.startsWith("file:") ? await keptFile() : null;
-    if (file) return this.registerFile(file.name, file.bytes);
-    return this.builtin(id.startsWith("builtin:") ? id : "builtin:animal");
+  /** The shape that was asked for; where it cannot be had any more, the animal. */
+  private async firstShape(opening: Opening): Promise<void> {
+    const view = (opening.shared ?? opening.saved).view ?? null;
+    const file = await opening.file;
+    const choice = file ? this.registerFile(file.name, file.bytes) : this.builtin(opening.shape);
+    await this.loadShape(choice, view, opening.info).catch(async (error: unknown) => {
+      await this.loadShape(this.builtin("builtin:animal"), null);
+      this.fail(error, choice.name);
+    });
   }
 
   /** Opens what a link holds, as a step that can be undone. */
@@ -214,11 +242,10 @@ export class Studio {
     this.request("restart");
   }
 
-  private async loadShape(choice: ShapeChoice, view: View | null): Promise<void> {
+  private async loadShape(choice: ShapeChoice, view: View | null, asked?: Promise<ShapeInfo>): Promise<void> {
     this.setBusy(`Reading ${choice.name}`);
     try {
-      const blocks: Record<string, Uint8Array> = choice.bytes ? { bytes: choice.bytes } : {};
-      this.info = await this.engine.ask<ShapeInfo>("shape", { name: choice.bytes ? choice.name : choice.id }, blocks);
+      this.info = await (asked ?? askShape(this.engine, choice));
     } finally {
       this.setBusy("");
     }
@@ -234,7 +261,7 @@ export class Studio {
 
   /** Takes another text of the recipe and does what the change needs. */
   edit(text: string, options: EditOptions): void {
-    const change = options.change ?? changeBetween(this.recipe, text);
+    const change = options.change ?? toml.changeBetween(this.recipe, text);
     if (text === this.recipe) return;
     this.history.record(() => this.snapshot(options.label), options.merge ?? null);
     this.recipe = text;
@@ -517,7 +544,7 @@ export class Studio {
     try {
       const reply = await this.engine.ask<Begun>("restore_state", { state });
       this.accept(reply, reply.recipe ?? this.recipe, true);
-      const change = reply.recipe === undefined ? "look" : changeBetween(reply.recipe, this.recipe);
+      const change = reply.recipe === undefined ? "look" : toml.changeBetween(reply.recipe, this.recipe);
       if (change !== "none") await this.grow(change);
       return true;
     } catch {
@@ -549,7 +576,7 @@ export class Studio {
 
   /** Name of the coat as its text has it, and one that files can have. */
   get coatName(): string {
-    return stringValue(topValue(this.recipe, "name")) ?? "coat";
+    return toml.stringValue(toml.topValue(this.recipe, "name")) ?? "coat";
   }
 
   get fileName(): string {

@@ -62,7 +62,7 @@ TEST(Analyse, LargestStepsOfTuringsModel) {
 }
 
 TEST(Analyse, AModelAsTextIsTheModel) {
-  const ModelTexts texts = {{"mine", bytes_of(PELAGE_SOURCE_DIR "/models/turing.toml")}};
+  const ModelTexts texts = {{"mine", {bytes_of(PELAGE_SOURCE_DIR "/models/turing.toml")}}};
   const Analysis mine = analyse("mine:production", {{"s", 0.07}}, texts);
   const Analysis built_in = analyse("turing:production", {{"s", 0.07}});
   EXPECT_EQ(mine.stability.wavelength, built_in.stability.wavelength);

@@ -179,7 +179,7 @@ TEST(Grow, AModelAsTextIsTheModel) {
     Recipe recipe = parse_recipe(one_stage, "test");
     recipe.stages[0].model.value = std::string("turing") + variant;
     Growth built_in(sphere(), recipe);
-    recipe.models["mine"] = text;
+    recipe.models["mine"].text = text;
     recipe.stages[0].model.value = std::string("mine") + variant;
     Growth mine(sphere(), recipe);
     built_in.advance(20);
@@ -190,7 +190,7 @@ TEST(Grow, AModelAsTextIsTheModel) {
 
 TEST(Grow, FaultsOfAModelAsTextHaveTheirPlace) {
   Recipe recipe;
-  recipe.models["mine"] = "name = \"mine\"\n[species.u]\ndiffusion = \"1\"\nrate = \"1 - w\"\n";
+  recipe.models["mine"].text = "name = \"mine\"\n[species.u]\ndiffusion = \"1\"\nrate = \"1 - w\"\n";
   recipe.stages[0].model.value = "mine";
   try {
     Growth(sphere(), recipe);

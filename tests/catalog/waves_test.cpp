@@ -129,7 +129,7 @@ double slope_of_square(WaveRun run, double length, const std::function<bool(cons
 
 Recipe ring(const std::string& initial, double length) {
   Recipe recipe = parse_recipe("[stage]\nmodel = \"scroll\"\nuntil = 14\ninitial = " + initial + "\n", "test");
-  recipe.models["scroll"] = oscillating;
+  recipe.models["scroll"].text = oscillating;
   recipe.stages[0].unit = {{1 / length, Length::Unit::world}, {}};
   return recipe;
 }

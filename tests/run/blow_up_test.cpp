@@ -18,7 +18,7 @@ namespace {
 std::string failure(const std::string& species, const std::string& stepper = "", double step = 0,
                     const std::string& shape = "builtin:sphere?n=642") {
   Recipe recipe;
-  recipe.models["own"] = "name = \"own\"\nwavelength = 1\n" + species;
+  recipe.models["own"].text = "name = \"own\"\nwavelength = 1\n" + species;
   Stage& stage = recipe.stages[0];
   stage.model.value = "own";
   stage.size = Given<Length>{{0.3}, {}};
@@ -102,7 +102,7 @@ TEST(BlowUp, WhatIsNoNumberIsCalledSo) {
 
 TEST(BlowUp, NamesTheStage) {
   Recipe recipe;
-  recipe.models["own"] =
+  recipe.models["own"].text =
       "name = \"own\"\nwavelength = 1\n[species.u]\ndiffusion = \"1\"\nrate = \"u^2\"\ninitial = \"1\"\n";
   recipe.stages.resize(2);
   recipe.stages[0].steps = 1;

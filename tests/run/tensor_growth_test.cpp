@@ -26,7 +26,7 @@ constexpr double coarse = 100;  // a size that leaves the mesh of the shape as i
 
 Recipe recipe_of(const std::string& species, const std::string& method = "loop") {
   Recipe recipe;
-  recipe.models["test.toml"] = "name = 'test'\nwavelength = " + number(coarse) + "\n" + species;
+  recipe.models["test.toml"].text = "name = 'test'\nwavelength = " + number(coarse) + "\n" + species;
   Stage& stage = recipe.stages[0];
   stage.model.value = "test.toml";
   stage.size = Given<Length>{{coarse, Length::Unit::world}, {}};

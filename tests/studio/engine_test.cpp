@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "pelage/analyse.h"
 #include "pelage/grow.h"
 #include "pelage/io.h"
 #include "studio/message.h"
@@ -162,6 +163,18 @@ TEST(StudioEngine, StatesComeBack) {
   EXPECT_EQ(studio.ask("restore_state", {{"state", kept["state"]}}).header["ok"], false);
 }
 
+TEST(StudioEngine, StatesKeepTheLookThatTheyHad) {
+  Studio studio = on_sphere();
+  studio.grow(10);
+  const std::string looked = std::string(spots) + "[look]\nramp = \"mono\"\n";
+  const auto colors = block<std::uint8_t>(studio.told("look", {{"recipe", looked}}), "colors");
+  const Header kept = studio.told("keep_state").header;
+  studio.begin(spots);
+  const Message restored = studio.told("restore_state", {{"state", kept["state"]}});
+  EXPECT_EQ(restored.header["recipe"], looked);
+  EXPECT_EQ(block<std::uint8_t>(restored, "colors"), colors);
+}
+
 TEST(StudioEngine, FaultsAreLocatedAndChangeNothing) {
   Studio studio = on_sphere();
   const Message before = studio.grow(4);
@@ -186,14 +199,67 @@ TEST(StudioEngine, RecipesReadNoFiles) {
   for (const char* recipe :
        {"[[texture]]\nname = \"age\"\nfile = \"age.png\"\n[[stage]]\nmodel = \"turing\"\n",
         "[[stage]]\nmodel = \"/etc/model.toml\"\n", "[[stage]]\nmodel = \"mine.toml:variant\"\n"}) {
-    const Message refused = studio.ask("begin", {{"recipe", recipe}});
-    EXPECT_EQ(refused.header["ok"], false) << recipe;
+    for (const char* what : {"begin", "check", "look", "analyse"}) {
+      const Header refused = studio.ask(what, {{"recipe", recipe}}).header;
+      EXPECT_EQ(refused["ok"], false) << what << recipe;
+      EXPECT_NE(refused["error"]["message"].get<std::string>().find("file"), std::string::npos) << refused;
+    }
   }
-  // Models come as texts beside the recipe instead.
-  const Header models = {{"mine", studio.told("model_text", {{"name", "schnakenberg"}}).header["text"]}};
-  const Message begun =
-      studio.told("begin", {{"recipe", "[[stage]]\nmodel = \"mine\"\nsize = 0.3\n"}, {"models", models}});
+}
+
+TEST(StudioEngine, RecipesHoldModelsOfTheirOwn) {
+  Studio studio = on_sphere();
+  const std::string model = studio.told("model_text", {{"name", "schnakenberg"}}).header["text"];
+  const auto recipe = [](const std::string& text) {
+    return "[[stage]]\nmodel = \"mine\"\nsize = 0.3\n\n[models]\nmine = '''\n" + text + "'''\n";
+  };
+  const Message begun = studio.begin(recipe(model));
   EXPECT_EQ(begun.header["stages"][0]["species"].size(), 2U);
+  studio.grow(3);
+  const Header error = studio.ask("check", {{"recipe", recipe("spices = 3\n" + model)}}).header["error"];
+  EXPECT_EQ(error["file"], "recipe.toml");
+  EXPECT_EQ(error["line"], 7) << error;
+  EXPECT_EQ(
+      studio.ask("check", {{"recipe", "[stage]\nmodel = \"a.b\"\n[models]\n\"a.b\" = \"\"\n"}}).header["error"]["line"],
+      4);
+}
+
+// Gray and Scott's spots grow from seeds alone; Schnakenberg's a + b decides.
+TEST(StudioEngine, MapsTellWherePatternsGrow) {
+  Studio studio;
+  const Header x = {{"parameter", "a"}, {"low", 0.02}, {"high", 0.5}, {"count", 7}},
+               y = {{"parameter", "b"}, {"low", 0.4}, {"high", 1.4}, {"count", 5}};
+  const Header recipe = "[[stage]]\nmodel = \"schnakenberg\"\n";
+  const Message map = studio.told("parameter_map", {{"recipe", recipe}, {"stage", 0}, {"x", x}, {"y", y}});
+  const auto& regime = block<std::uint8_t>(map, "regime");
+  ASSERT_EQ(regime.size(), 35U);
+  for (std::size_t i = 0; i < 7; ++i)
+    for (std::size_t j = 0; j < 5; ++j) {
+      const double a = 0.02 + 0.48 * static_cast<double>(i) / 6, b = 0.4 + static_cast<double>(j) / 4;
+      const Analysis known = analyse("schnakenberg", {{"a", a}, {"b", b}});
+      EXPECT_EQ(map.header["regimes"][regime[7 * j + i]], known.verdict) << a << " " << b;
+      EXPECT_FLOAT_EQ(block<float>(map, "growth")[7 * j + i], static_cast<float>(known.stability.growth));
+    }
+  const Header other = {{"parameter", "q"}, {"low", 0}};
+  EXPECT_EQ(studio.ask("parameter_map", {{"recipe", recipe}, {"x", other}, {"y", y}}).header["ok"], false);
+  EXPECT_EQ(studio.ask("parameter_map", {{"recipe", recipe}, {"x", x}, {"y", x}}).header["ok"], false);
+}
+
+TEST(StudioEngine, TilesShowWhatGrows) {
+  Studio studio;
+  const auto tile = [&](double a) {
+    return studio.told("map_tile", {{"recipe", "[[stage]]\nmodel = \"schnakenberg\"\n"},
+                                    {"x", {{"parameter", "a"}, {"low", a}}},
+                                    {"y", {{"parameter", "b"}, {"low", 0.9}}},
+                                    {"texels", 24}});
+  };
+  const Message grown = tile(0.1), plain = tile(0.4);
+  EXPECT_EQ(grown.header["outcome"], "pattern");
+  EXPECT_EQ(plain.header["outcome"], "uniform");
+  const auto& pixels = block<std::uint8_t>(grown, "pixels");
+  ASSERT_EQ(pixels.size(), 4U * 24 * 24);
+  const auto [low, high] = std::ranges::minmax(pixels);
+  EXPECT_GT(high - low, 100);
 }
 
 TEST(StudioEngine, AnswersWhatIsNoRequest) {
