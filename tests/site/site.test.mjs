@@ -41,7 +41,8 @@ before(async () => {
   });
   await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
   base = `http://127.0.0.1:${server.address().port}${prefix}`;
-  browser = await startBrowser();
+  // No name leads anywhere; requests by number are seen below.
+  browser = await startBrowser("--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1");
 });
 
 after(async () => {
@@ -53,11 +54,8 @@ after(async () => {
 async function openTab() {
   const tab = await browser.newPage();
   const faults = [];
-  await tab.setRequestInterception(true);
   tab.on("request", (request) => {
-    const inside = request.url().startsWith(base) || /^(data|blob):/.test(request.url());
-    if (!inside) faults.push(`asked for ${request.url()}`);
-    return inside ? request.continue() : request.abort();
+    if (!request.url().startsWith(base) && !/^(data|blob):/.test(request.url())) faults.push(`asked for ${request.url()}`);
   });
   tab.on("response", (response) => response.status() >= 400 && faults.push(`${response.status()} ${response.url()}`));
   tab.on("pageerror", (error) => faults.push(String(error)));
