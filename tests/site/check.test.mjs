@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 import { fileURLToPath } from "node:url";
-import { faults } from "../../site/check.mjs";
+import { faults, sizeLines } from "../../site/check.mjs";
 import { liveModel } from "../../site/gallery.mjs";
 import { slug } from "../../site/markdown.mjs";
 import { helpBody } from "../../site/reference.mjs";
@@ -26,6 +26,11 @@ function found(body, other = page("<h1 id='there'>other</h1>".replaceAll("'", '"
 }
 
 test("the site as it is has no faults", () => assert.deepEqual(faults(site), []));
+
+test("the studio asks for 3 MB at most before the first mesh", () => {
+  const line = sizeLines(site).find((one) => one.startsWith("studio"));
+  assert.ok(Number(/gzipped (\d+) kB/.exec(line)[1]) <= 3000, line);
+});
 
 test("a link that is broken in a page of the site is named", () => {
   const copy = mkdtempSync(join(tmpdir(), "site-"));
