@@ -1,6 +1,6 @@
 # Thin verbs over tools/*.sh and the CMake presets, for those who have make.
 .DEFAULT_GOAL := build
-.PHONY: setup build studio demo test test-page bench bench-parts test-clients format format-check tidy asan tsan sanitizers mutants fuzz clean
+.PHONY: setup build studio site demo test test-page bench bench-parts test-clients format format-check tidy asan tsan sanitizers mutants fuzz clean
 
 export JOBS ?= $(shell nproc)
 CMAKE_BUILD := cmake --build --parallel $(JOBS) --preset
@@ -15,6 +15,9 @@ build: setup  ## the release: build/release/bin/pelage
 
 studio: build  ## the studio's page, beside the program: build/release/bin/pelage studio opens it
 	@sh tools/studio.sh
+
+site: build  ## gallery, figures, guides, reference and the studio as plain files: out/site
+	@sh tools/site.sh
 
 demo:  ## grow a coat on the built-in animal: out/demo.glb, out/demo.ply, out/demo.png
 	@sh tools/demo.sh

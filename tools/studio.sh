@@ -8,7 +8,7 @@ CDPATH="" cd -- "$(dirname -- "$0")/.."
 # Where node comes from elsewhere, it brings npm along.
 command -v npm >/dev/null || sh tools/setup.sh nodejs npm
 cd studio
-npm ci --no-audit --no-fund --loglevel=error
+[ node_modules/.package-lock.json -nt package-lock.json ] || npm ci --no-audit --no-fund --loglevel=error
 npm run --silent build -- --outdir="$page"
 if [ -e ../build/wasm/bin/pelage-engine.wasm ]; then
   cp ../build/wasm/bin/pelage-engine.js ../build/wasm/bin/pelage-engine.wasm ../build/wasm/bin/engine-worker.js "$page"

@@ -52,10 +52,11 @@ async function startProgram() {
   return { link, stop: () => child.kill() };
 }
 
-export async function startBrowser() {
+/** `flags`: further ones of the browser. */
+export async function startBrowser(...flags) {
   const browser = await puppeteer.launch({
     executablePath: browserPath,
-    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking"],
+    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking", ...flags],
   });
   return browser;
 }
