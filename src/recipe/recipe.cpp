@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/ascii.h"
 #include "base/length_unit.h"
 #include "base/named_files.h"
 #include "base/number.h"
@@ -211,7 +212,7 @@ std::vector<Brush> read_brushes(const Value& list) {
 /// Whether stages can tell it from the path of a file and from a variant.
 bool names_a_model(const std::string& name) {
   return !name.empty() &&
-         std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; });
+         std::ranges::all_of(name, [](char c) { return is_letter_or_digit(c) || c == '-' || c == '_'; });
 }
 
 /// [models]: each a text, which gets as many empty lines before it as make its lines those of the recipe.
