@@ -8,6 +8,7 @@
 
 #include "base/number.h"
 #include "base/parallel.h"
+#include "base/report.h"
 #include "discretise/cubic_triangle.h"
 #include "pelage/error.h"
 #include "shape/refine.h"
@@ -37,12 +38,14 @@ double area(const std::vector<Triangle>& triangles, const std::vector<Point>& po
 }
 
 /// A few long triangles are no reason to split all: the mesh that is made of them is even all the same.
-void refine_for(Hierarchy& levels, std::vector<Point>& control, double edge, std::size_t max_triangles) {
+void refine_for(Hierarchy& levels, std::vector<Point>& control, double edge, std::size_t max_triangles,
+                const Progress& progress) {
   const double wanted = 4 / std::sqrt(3.0) * area(levels.topology(0).triangles, control) / (edge * edge);
   if (wanted > static_cast<double>(max_triangles))
     throw Error(Fault::input, "a pattern of this size needs " + number(wanted) + " triangles, more than the " +
                                   std::to_string(max_triangles) + " that fit into memory; ask for a larger one");
   for (;;) {
+    report(progress, "meshing", 0);
     const std::vector<Triangle>& triangles = levels.topology(levels.finest()).triangles;
     if (static_cast<double>(triangles.size()) >= wanted || prevailing_edge(triangles, control) <= base_edges * edge)
       return;
@@ -70,7 +73,7 @@ Point smooth_point(const std::array<Point, 3>& corners, const std::array<Point, 
 
 SimulationMesh::SimulationMesh(Hierarchy& levels, std::vector<Point>& control, const Edge& edge,
                                std::size_t max_triangles, const Progress& progress) {
-  refine_for(levels, control, edge.smallest, max_triangles);
+  refine_for(levels, control, edge.smallest, max_triangles, progress);
   base_ = levels.shared_topology(0);
   finest_ = levels.shared_topology(levels.finest());
   const std::vector<Point> limit = loop_limits(*finest_, control);

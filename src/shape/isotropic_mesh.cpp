@@ -742,7 +742,9 @@ IsotropicMesh IsotropicMesher::run(double wanted) {
   aims_.reserve(room);
   constexpr int rounds = 4;
   for (int round = 0; round < rounds; ++round) {
+    ask();
     split_above(4.0 / 3.0);
+    ask();
     if (round == 0) pack();
     if (round == 0)
       for (double factor : {0.2, 0.4}) collapse_below(factor, 4.0 / 3.0);
@@ -792,7 +794,9 @@ IsotropicMesh isotropic_mesh(const Hierarchy& levels, const std::vector<Point>& 
   int start = levels.finest();  // half to twice as many triangles as wanted
   while (start > 0 && static_cast<double>(levels.topology(start).triangles.size()) > 2 * wanted) --start;
   const std::vector<Point> uneven = without_symmetry(points, *std::min_element(edges.begin(), edges.end()));
+  report(progress, "meshing", 0);
   const OwnOrder order = own_order(levels.topology(start), uneven);
+  report(progress, "meshing", 0);
   IsotropicMesh mesh = IsotropicMesher(base, uneven, std::move(edges), order, progress).run(wanted);
   mesh.points.resize(mesh.places.size());
   parallel_for(mesh.points.size(), [&](std::size_t begin, std::size_t end) {
