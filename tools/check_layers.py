@@ -16,7 +16,7 @@ PUBLIC = {"error": "base", "channel": "base", "named_files": "base", "point": "b
           "up_axis": "shape", "image": "shape", "texture_maps": "shape", "grid": "shape", "atlas": "shape", "cells": "shape",
           "tet_mesh": "shape", "node_shape": "shape",
           "unwrap": "unwrap", "finding": "shape", "stability": "react", "recipe": "recipe", "io": "io", "fair": "fair", "field": "direction",
-          "run_summary": "run", "grow": "catalog", "analyse": "catalog", "render": "render", "pelage": "apps"}
+          "measure": "measure", "own_rates": "run", "run_summary": "run", "recipe_changes": "catalog", "grow": "catalog", "analyse": "catalog", "render": "render", "pelage": "apps"}
 INCLUDE = re.compile(r'\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 
 # Where headers belong that are neither of the C++ standard library nor of Eigen: those whose names begin like this, in

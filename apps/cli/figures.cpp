@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/suggest.h"
+#include "catalog/measured_coat.h"
 #include "catalog/papers.h"
 #include "command.h"
 #include "figures_page.h"
@@ -16,7 +17,6 @@
 #include "io/atomic_file.h"
 #include "io/journal.h"
 #include "io/output_set.h"
-#include "measured_coat.h"
 #include "parts.h"
 #include "progress_bar.h"
 #include "run/run.h"

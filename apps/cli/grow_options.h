@@ -8,32 +8,23 @@
 
 #include "command.h"
 #include "line_outputs.h"
-#include "pelage/recipe.h"
+#include "pelage/recipe_changes.h"
 #include "print_options.h"
 #include "view_options.h"
 
 namespace pelage {
 
 /// What was given; what was not is empty and left to the recipe.
-struct GrowOptions {
+struct GrowOptions : RecipeChanges {
+  GrowOptions() { prefix = "--"; }
+
   std::string shape;
-  std::optional<std::string> recipe, model, size, unit, quality, method, stepper, solver, species, ramp;
-  std::vector<std::string> settings;  ///< "PARAM=VALUE" or "STAGE.PARAM=VALUE"
-  std::vector<std::string> maps;      ///< "PARAM=FORMULA", likewise
-  std::vector<std::string> textures;  ///< "NAME=FILE"
-  std::vector<std::string> channels;  ///< "CHANNEL=FORMULA"
-  std::optional<double> input_unit;   ///< metres
-  std::optional<double> step, until, stationary, growth, crease;
-  double every_minutes = 5;  ///< between checkpoints
-  std::optional<std::int64_t> steps, every, refresh;
-  std::optional<std::uint64_t> seed;
-  std::optional<int> detail, threads;
-  std::optional<std::int64_t> cells, triangles;
-  std::string fair;  ///< method of fairing, or empty
-  std::optional<std::string> motion;
-  bool profile = false, solid = false, nested = false;
-  bool interpolate = false, invert = false, keep_shape = false, flat = false, displace = false, no_fields = false,
-       compress = false;
+  std::optional<std::string> recipe;
+  std::optional<double> input_unit;  ///< metres
+  double every_minutes = 5;          ///< between checkpoints
+  std::optional<int> threads;
+  std::optional<std::int64_t> triangles;
+  bool profile = false, nested = false, compress = false;
 
   std::vector<std::string> outputs;
   std::string picture, panels, plot, height_map, patch_images, checkpoint, resume;

@@ -21,6 +21,7 @@
 #include "parts.h"
 #include "pelage/io.h"
 #include "progress_bar.h"
+#include "recipe/setting.h"
 #include "run/parameter_map.h"
 #include "settings.h"
 #include "text.h"
@@ -95,7 +96,7 @@ MapRequest make_request(const MapOptions& options) {
     throw Error(Fault::usage, "--x and --y both vary " + request.x.parameter + "; give two parameters");
   request.model = load_model(options.model);
   for (const std::string& text : options.settings) {
-    const Stage::Setting setting = parse_setting(text);
+    const Stage::Setting setting = parse_setting(text, "--set");
     request.settings[setting.name] = setting.value;
   }
   request.side = options.side;

@@ -4,12 +4,12 @@
 #include <cstdio>
 #include <memory>
 
+#include "catalog/measured_coat.h"
 #include "command.h"
 #include "input_unit.h"
 #include "io/png_writer.h"
 #include "look/plot.h"
 #include "look/ticks.h"
-#include "measured_coat.h"
 #include "text.h"
 
 namespace pelage {

@@ -13,9 +13,6 @@ namespace pelage {
 /// --set PARAM=VALUE, repeatable.
 CLI::Option* add_settings_option(CLI::App& app, std::vector<std::string>& settings);
 
-/// "PARAM=VALUE". Error(Fault::usage) for anything else.
-Stage::Setting parse_setting(const std::string& text);
-
 /// The model of that name or file with these settings. Error(Fault::usage) for unknown names.
 Model load_model_with(const std::string& name_or_path, const std::vector<std::string>& settings);
 

@@ -18,6 +18,8 @@
 
 #include "pelage/error.h"
 #include "pelage/grid.h"
+#include "pelage/io.h"
+#include "pelage/own_rates.h"
 #include "pelage/progress.h"
 #include "pelage/recipe.h"
 #include "pelage/run_summary.h"
@@ -32,8 +34,23 @@ Recipe load_recipe(const std::string& name_or_path);
 /// The built-in recipes.
 std::vector<std::string> recipe_names();
 
+/// As read_shape() (io.h), and also grids for regions and sewn patches, from a .toml file or built in.
+/// Error(Fault::usage), located, for faults in these.
+ShapeFile find_shape(const std::string& path);
+
 /// The finished coat of a recipe on a shape, as Growth::dress() gives it. Errors as those of Growth.
 TriangleMesh grow(const TriangleMesh& shape, const Recipe& recipe, const Progress& progress = {});
+
+/// A coat as square images on its shape: save() takes the mesh with SaveOptions::textures = {maps} and its `repeat`.
+struct TexturedMesh {
+  PolygonMesh mesh;
+  TextureMaps maps;
+  /// Of every texel from the top left corner: above the surface [world units], or, where the look says no height, the
+  /// value of the species that is shown.
+  std::vector<float> height;
+  int size = 0;         ///< texels along a side
+  bool repeat = false;  ///< uv beyond the image see it repeated
+};
 
 /// A coat that grows. Not copyable; use it from one thread at a time (it uses several itself).
 class Growth {
@@ -43,6 +60,10 @@ class Growth {
   Growth(TriangleMesh shape, const Recipe& recipe, const Progress& progress = {});
   /// The same on a grid, which neither moves nor is split.
   Growth(Grid grid, const Recipe& recipe, const Progress& progress = {});
+  /// The same on whatever a file has: surfaces, clouds of points, grids, patches, volumes; what the recipe grows in
+  /// volumes fills a surface. With `own`, its rates take the place of those of the model; Error(Fault::usage) for a
+  /// stage that the recipe does not have, and for steppers that need formulas.
+  Growth(ShapeFile shape, const Recipe& recipe, const Progress& progress = {}, const OwnRates& own = {});
   ~Growth();
   Growth(Growth&&) noexcept;
   Growth& operator=(Growth&&) noexcept;
@@ -87,6 +108,22 @@ class Growth {
   };
   std::vector<Field> fields() const;
 
+  /// The coat on the faces of the shape's file, as a look has it that keeps the shape.
+  PolygonMesh dress_in_file() const;
+  /// The coat as images of so many texels along a side, on the uv of the shape or else on an atlas that is made for it.
+  /// Error(Fault::usage) for shapes that are no surfaces, and uv of several images.
+  TexturedMesh bake(int size) const;
+
+  /// The nodes of the run: points, "normal", and triangles between them where there are any.
+  TriangleMesh nodes() const;
+  /// Of the stage in progress.
+  std::vector<std::string> species() const;
+  /// Concentrations of one of them at the nodes. Error(Fault::usage) for an unknown one.
+  std::vector<double> values(const std::string& species) const;
+  /// Replaces them. The steps begin anew from there, at the time that it is. Error(Fault::usage) for an unknown
+  /// species, another number of values than nodes, and values that are not finite.
+  void set_values(const std::string& species, const std::vector<double>& values);
+
   /// Everything that changes, as bytes: another Growth of the same shape and recipe that restores them goes on with
   /// the same bits, on any machine that rounds the same.
   std::string checkpoint() const;
@@ -95,6 +132,7 @@ class Growth {
 
  private:
   struct Parts;
+  std::size_t species_number(const std::string& name) const;
   std::unique_ptr<Parts> parts_;
 };
 

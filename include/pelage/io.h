@@ -49,6 +49,10 @@ ShapeFile read_shape_bytes(std::string_view bytes, const std::string& name);
 
 /// The same for a mesh of your own arrays.
 ShapeFile check_shape(TriangleMesh mesh);
+/// And for one of faces with any number of corners, or of points alone; it is what as_in_file() goes back to. What is
+/// wrong about it is told in the name of `name`. Error(Fault::input) also for vertex numbers and attributes that do not
+/// fit to it.
+ShapeFile check_shape(PolygonMesh mesh, const std::string& name = "mesh");
 
 /// The extensions of shapes that can be read, with the dot: ".obj", ...
 std::vector<std::string> readable_extensions();

@@ -1,9 +1,16 @@
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "base/report.h"
+#include "base/suggest.h"
 #include "catalog/bind.h"
+#include "catalog/images.h"
+#include "catalog/plan.h"
+#include "catalog/textured_coat.h"
 #include "look/cut_tessellation.h"
 #include "look/dress.h"
+#include "look/kept_shape.h"
 #include "pelage/grow.h"
 #include "run/run.h"
 
@@ -43,6 +50,7 @@ struct Growth::Parts {
   Run run;
   Look look;
   Progress progress;
+  ShapeFile file = {};  ///< without its mesh, which the run has
   TessellationCache tessellations = {};
 
   Tessellation tessellation(const CoatFields& fields, const Look& as_asked, const Paint& paint) {
@@ -64,6 +72,35 @@ Growth::Growth(TriangleMesh shape, const Recipe& recipe, const Progress& progres
 Growth::Growth(Grid grid, const Recipe& recipe, const Progress& progress)
     : parts_(std::make_unique<Parts>(
           Parts{Run(make_program(recipe, std::move(grid)), progress), shown_look(recipe), progress})) {}
+
+namespace {
+
+void take(const OwnRates& own, Program& program) {
+  if (!own.rates) return;
+  std::vector<std::string> names;
+  for (const StageProgram& stage : program.stages) names.push_back(stage.name);
+  const std::string& wanted = own.stage.empty() ? names.back() : own.stage;
+  const auto found = std::ranges::find(names, wanted);
+  if (found == names.end()) throw Error(Fault::usage, unknown_name("stage", wanted, names));
+  program.stages[static_cast<std::size_t>(found - names.begin())].own_rates = own.rates;
+}
+
+/// The run, and the file without what the run has of it.
+std::pair<Run, ShapeFile> run_on(ShapeFile file, const Recipe& recipe, const Progress& progress, const OwnRates& own) {
+  const Plan planned = plan(recipe);
+  std::vector<Texture> images = read_images(recipe.textures);
+  fill_solid(planned, file, images);
+  Program program = bind_plan(planned, file, std::move(images));
+  take(own, program);
+  return {Run(std::move(program), progress), std::move(file)};
+}
+
+}  // namespace
+
+Growth::Growth(ShapeFile shape, const Recipe& recipe, const Progress& progress, const OwnRates& own) {
+  auto [run, file] = run_on(std::move(shape), recipe, progress, own);
+  parts_ = std::make_unique<Parts>(Parts{std::move(run), shown_look(recipe), progress, std::move(file)});
+}
 
 Growth::~Growth() = default;
 Growth::Growth(Growth&&) noexcept = default;
@@ -118,6 +155,65 @@ std::vector<Growth::Field> Growth::fields() const {
   std::vector<Field> named;
   for (std::size_t i = 0; i < fields.species.size(); ++i) named.push_back({fields.species[i], t.samples.fields[i]});
   return named;
+}
+
+PolygonMesh Growth::dress_in_file() const {
+  Look look = parts_->look;
+  look.keep_shape = true;
+  const CoatFields fields = parts_->run.fields();
+  const SourceShape& form = parts_->file.source ? *parts_->file.source : own_form(*fields.shape);
+  return kept_shape(form, dress(look), resolve_paint(look, fields.species));
+}
+
+TexturedMesh Growth::bake(int size) const {
+  return textured_coat(parts_->run.fields(), parts_->file, parts_->look, size, parts_->progress);
+}
+
+TriangleMesh Growth::nodes() const {
+  const Run& run = parts_->run;
+  const World& world = run.world();
+  PlaceGeometry places = run.space().geometry(SampleRule::vertices, false);
+  TriangleMesh mesh{std::move(places.position), {}, {}};
+  if (world.hierarchy())
+    mesh.triangles = world.topology().triangles;
+  else if (run.program().shape && run.program().shape->points.size() == mesh.points.size())
+    mesh.triangles = run.program().shape->triangles;
+  Attribute normal{"normal", 3, Domain::vertex, {}};
+  for (const Point& n : places.normal) normal.values.insert(normal.values.end(), n.begin(), n.end());
+  if (!normal.values.empty()) mesh.set(std::move(normal));
+  return mesh;
+}
+
+std::vector<std::string> Growth::species() const {
+  const Model& model = parts_->run.stage_program().model;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < model.species_count(); ++i) names.push_back(model.species_name(i));
+  return names;
+}
+
+std::size_t Growth::species_number(const std::string& name) const {
+  const std::vector<std::string> names = species();
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) throw Error(Fault::usage, unknown_name("species", name, names));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+std::vector<double> Growth::values(const std::string& species) const {
+  const Run& run = parts_->run;
+  const Vector values = run.space().node_values() * run.coefficients()[species_number(species)];
+  return {values.begin(), values.end()};
+}
+
+void Growth::set_values(const std::string& species, const std::vector<double>& values) {
+  Run& run = parts_->run;
+  const std::size_t i = species_number(species);
+  if (std::ssize(values) != run.space().unknowns())
+    throw Error(Fault::usage, std::to_string(values.size()) + " values for " + species + "; there are " +
+                                  std::to_string(run.space().unknowns()) + " nodes");
+  if (!std::ranges::all_of(values, [](double x) { return std::isfinite(x); }))
+    throw Error(Fault::usage, "values of " + species + " have to be finite");
+  run.set_values(i, Eigen::Map<const Vector>(values.data(), std::ssize(values)));
+  parts_->tessellations.clear();
 }
 
 std::string Growth::checkpoint() const { return parts_->run.checkpoint(); }

@@ -4,16 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "pelage/io.h"
+#include "pelage/grow.h"
 
 namespace pelage {
 
 /// The patches that are compiled in; as the regions (catalog/regions.h) they are shapes: "builtin:vase?refine=2".
 std::vector<std::string> patches_names();
-
-/// As read_shape(), and also grids for regions and sewn patches, from a .toml file or built in. Error(Fault::usage),
-/// located, for faults in these.
-ShapeFile find_shape(const std::string& path);
 
 /// Throws as find_shape() does for what can be known without any work: unknown kinds and names, files that are not
 /// there.

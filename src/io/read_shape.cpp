@@ -326,6 +326,37 @@ ShapeFile check_shape(TriangleMesh mesh) {
   return file;
 }
 
+namespace {
+
+/// What readers of files never give.
+void require_sound(const PolygonMesh& mesh, const std::string& name) {
+  const std::size_t corners = mesh.corners.size();
+  if (!std::ranges::is_sorted(mesh.face_ends) || (mesh.face_ends.empty() ? 0 : mesh.face_ends.back()) != corners)
+    throw Error(Fault::input, "its faces do not have as many corners as there are", {name});
+  for (const std::int32_t v : mesh.corners)
+    if (v < 0 || static_cast<std::size_t>(v) >= mesh.points.size())
+      throw Error(Fault::input,
+                  "a face has vertex " + std::to_string(v) + ", and there are " + std::to_string(mesh.points.size()),
+                  {name});
+  const auto count = [&](Domain domain) {
+    return domain == Domain::vertex ? mesh.points.size() : domain == Domain::corner ? corners : mesh.face_count();
+  };
+  for (const Attribute& a : mesh.attributes)
+    if (a.components < 1 || a.values.size() != count(a.domain) * static_cast<std::size_t>(a.components))
+      throw Error(Fault::input,
+                  a.name + " has " + std::to_string(a.values.size()) + " numbers, not " + std::to_string(a.components) +
+                      " for each of " + std::to_string(count(a.domain)),
+                  {name});
+}
+
+}  // namespace
+
+ShapeFile check_shape(PolygonMesh mesh, const std::string& name) {
+  require_sound(mesh, name);
+  const std::optional<double> metres = mesh.metres_per_unit;
+  return mended(RawShape{std::move(mesh), {}, {}, {}, UpAxis::y, {}, metres}, name);
+}
+
 TriangleMesh load_shape(const std::string& path) { return read_shape(path).mesh; }
 
 std::vector<std::string> readable_extensions() {

@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "measure/parts.h"
+#include "measure/spectrum.h"
+#include "measure/spots.h"
 #include "pelage/error.h"
 
 namespace pelage {

@@ -8,6 +8,8 @@
 #include "measure/defects.h"
 #include "measure/parts.h"
 #include "measure/slopes.h"
+#include "measure/spectrum.h"
+#include "measure/spots.h"
 #include "pelage/error.h"
 #include "shape/topology.h"
 

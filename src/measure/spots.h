@@ -1,22 +1,12 @@
 #pragma once
 // Spots and their neighbours.
 
-#include <map>
 #include <span>
 #include <vector>
 
-#include "pelage/triangle_mesh.h"
+#include "pelage/measure.h"
 
 namespace pelage {
-
-struct Spots {
-  std::size_t count = 0;
-  double diameter = 0;  ///< mean of those of discs of the same area [world units]
-  double nearest = 0;   ///< mean distance from the centre of a spot to the nearest other one [world units]
-  /// How many spots have how many neighbours: the triangles of Delaunay's triangulation at them. Spots whose cells
-  /// reach the border of the surface are left out.
-  std::map<std::size_t, std::size_t> neighbours;
-};
 
 /// Of the connected parts where a function is above a level, or below it. Their centres are the vertices nearest to
 /// the centroids; their cells grow on the surface to where another centre is nearer, in a straight line. On a closed

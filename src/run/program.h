@@ -9,6 +9,7 @@
 #include "discretise/method.h"
 #include "pelage/fair.h"
 #include "pelage/node_shape.h"
+#include "pelage/own_rates.h"
 #include "pelage/triangle_mesh.h"
 #include "react/model.h"
 #include "run/borders.h"
@@ -53,7 +54,8 @@ struct StageProgram {
   std::optional<std::int64_t> steps;
   double stationary = 0;  ///< 0: never
   std::uint64_t seed = 1;
-  std::optional<double> iterations;  ///< that it is likely to take; see RunSummary::iterations
+  decltype(OwnRates::rates) own_rates = {};  ///< instead of those of the model; empty: none
+  std::optional<double> iterations;          ///< that it is likely to take; see RunSummary::iterations
 
   /// Whether the step follows the error.
   bool adaptive() const { return !step && stepper->adaptive; }

@@ -212,6 +212,13 @@ void Run::set_coefficients(std::vector<Vector> coefficients) {
   show_followers();
 }
 
+void Run::set_values(std::size_t species, const Vector& values) {
+  std::vector<Vector> all = coefficients();
+  const SampledMass nodes = space().sampled(SampleRule::vertices);
+  all[species] = nodes.mass ? coefficients_from_samples(*nodes.sampling, *nodes.mass, values) : values;
+  set_coefficients(std::move(all));
+}
+
 void Run::go_on() {
   if (!done() || now_->summary.status == RunStatus::failed) return;
   now_->stop = {now_->state.time + stage_program().until, {}, 0};

@@ -66,6 +66,8 @@ class Run {
   /// Replaces the state of the stage by these coefficients, one field per species: steps begin anew from there, at the
   /// time that it is.
   void set_coefficients(std::vector<Vector> coefficients);
+  /// The same for one species, given by its values at the nodes.
+  void set_values(std::size_t species, const Vector& values);
   /// Lets a run that has come to its end go on: for as long again as its last stage was meant to take, also at rest.
   void go_on();
   /// Goes on from where another run of the same stages stands, on as many unknowns and with species of the same names:

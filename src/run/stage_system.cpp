@@ -115,6 +115,10 @@ void StageSystem::couple_species() {
 }
 
 void StageSystem::add_reaction() {
+  system_.weighted_mass = [space = space_](const Vector& factor) {
+    return space->weighted_mass(std::vector<double>(factor.begin(), factor.end()));
+  };
+  if (stage_->own_rates) return add_own_reaction();
   system_.reaction.rates = [kinetics = kinetics_](const FieldPointers& u, double t, std::size_t begin, std::size_t end,
                                                   const MutableFieldPointers& rate) {
     kinetics->rates(u, t, begin, end, rate);
@@ -125,8 +129,20 @@ void StageSystem::add_reaction() {
                                                   const MutableFieldPointers& c2, const MutableFieldPointers& c3) {
     kinetics->split(u, t, begin, end, c2, c3);
   };
-  system_.weighted_mass = [space = space_](const Vector& factor) {
-    return space->weighted_mass(std::vector<double>(factor.begin(), factor.end()));
+}
+
+/// Whose rates depend on anything that a program likes: there is nothing to split.
+void StageSystem::add_own_reaction() {
+  if (stage_->stepper->splits)
+    throw Error(Fault::usage, "the stepper " + std::string(stage_->stepper->name) +
+                                  " splits formulas into C2 u + C3, and rates of your own are none; take another");
+  system_.reaction.rates = [rates = stage_->own_rates](const FieldPointers& u, double t, std::size_t begin,
+                                                       std::size_t end, const MutableFieldPointers& rate) {
+    FieldPointers in = u;
+    MutableFieldPointers out = rate;
+    for (const double*& field : in) field += begin;
+    for (double*& field : out) field += begin;
+    rates(in, t, begin, end, out);
   };
 }
 

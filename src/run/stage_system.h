@@ -37,6 +37,7 @@ class StageSystem {
   void add_species(std::size_t i);
   void couple_species();
   void add_reaction();
+  void add_own_reaction();
   void add_gradients();
   void add_borders();
   void fill_own_stiffness(std::size_t i);

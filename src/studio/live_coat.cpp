@@ -5,11 +5,11 @@
 #include "base/suggest.h"
 #include "catalog/bind.h"
 #include "catalog/plan.h"
+#include "catalog/textured_coat.h"
 #include "look/cut_tessellation.h"
 #include "look/dress.h"
 #include "pelage/error.h"
 #include "shape/vectors.h"
-#include "studio/baked_coat.h"
 #include "studio/catalogue.h"
 
 namespace pelage {
@@ -223,7 +223,11 @@ Message LiveCoat::sampled(const Point& at) const {
 TriangleMesh LiveCoat::dressed() const { return dress(run_.fields(), look_now()); }
 
 std::string LiveCoat::baked(int size, const SaveOptions& options, const Progress& progress) const {
-  return baked_glb(run_.fields(), look_now(), size, options, progress);
+  const TexturedMesh baked = textured_coat(run_.fields(), {}, look_now(), size, progress);
+  SaveOptions textured = options;
+  textured.textures = {baked.maps};
+  textured.repeat = baked.repeat;
+  return mesh_bytes(baked.mesh, ".glb", textured);
 }
 
 Message LiveCoat::fine() const {

@@ -40,7 +40,7 @@ class LiveCoat {
   Message fine() const;
   /// What files hold.
   TriangleMesh dressed() const;
-  /// The same as images; errors of baked_glb().
+  /// The same as images, a GLB; errors of textured_coat().
   std::string baked(int size, const SaveOptions& options, const Progress& progress) const;
 
   const Run& run() const { return run_; }

@@ -107,6 +107,7 @@ constexpr StepperKind semi_implicit = {
     .amplification = amplification,
     .symmetric = true,
     .solves = true,
-    .refreshes = true};
+    .refreshes = true,
+    .splits = true};
 
 }  // namespace pelage

@@ -77,6 +77,7 @@ struct StepperKind {
   bool symmetric = false;     ///< solves with stiffness matrices, or sums powers of them: they have to be symmetric
   bool solves = false;        ///< heeds StepRequest::solver
   bool refreshes = false;     ///< heeds StepRequest::refresh
+  bool splits = false;        ///< only for systems with Reaction::split
 };
 
 extern const StepperKind sbdf2;           ///< second-order semi-implicit backward differences, variable step (Ruuth

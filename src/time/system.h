@@ -39,7 +39,8 @@ struct Reaction {
   std::function<FloatRates(double t)> float_rates;
   /// dR_i/du_j, between jumps, as rate[i * species + j]; empty: steppers go by differences alone.
   std::function<FloatRates(double t)> float_jacobian;
-  /// R_i = c2_i u_i + c3_i, the split of eq. (2) that the semi-implicit Euler scheme needs.
+  /// R_i = c2_i u_i + c3_i, the split of eq. (2) that the semi-implicit Euler scheme needs; empty: steppers that
+  /// take it where it is there go without.
   std::function<void(const FieldPointers& u, double t, std::size_t begin, std::size_t end,
                      const MutableFieldPointers& c2, const MutableFieldPointers& c3)>
       split;

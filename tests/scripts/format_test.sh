@@ -3,5 +3,5 @@
 set -euo pipefail
 cd "$1"
 command -v clang-format >/dev/null || { echo "skipped: no clang-format"; exit 77; }
-find src include apps tests bench examples \( -name '*.h' -o -name '*.cpp' \) -print0 2>/dev/null |
+find src include apps python tests bench examples \( -name '*.h' -o -name '*.cpp' \) -print0 2>/dev/null |
   xargs -0 clang-format --dry-run -Werror

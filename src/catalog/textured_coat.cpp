@@ -1,6 +1,7 @@
-#include "studio/baked_coat.h"
+#include "catalog/textured_coat.h"
 
 #include "io/gltf_coat.h"
+#include "io/read_shape.h"
 #include "look/bake.h"
 #include "look/coat_sampler.h"
 #include "look/dress.h"
@@ -8,6 +9,7 @@
 #include "look/tessellation.h"
 #include "pelage/error.h"
 #include "pelage/unwrap.h"
+#include "shape/triangulate.h"
 
 namespace pelage {
 
@@ -23,18 +25,27 @@ void require_surface(const CoatFields& fields, int size) {
                 "an image has from " + std::to_string(smallest) + " to " + std::to_string(largest) + " texels a side");
 }
 
-std::shared_ptr<const TriangleMesh> with_atlas(const TriangleMesh& shape, int size, const Progress& progress) {
-  TriangleMesh mesh = shape;
-  mesh.set(unwrap(polygons_of(shape), atlas_options(size), progress).uv);
-  return std::make_shared<const TriangleMesh>(std::move(mesh));
+ShapeFile with_atlas(ShapeFile file, int size, const Progress& progress) {
+  const PolygonMesh polygons = file.source ? file.source->polygons : polygons_of(file.mesh);
+  return with_attribute(std::move(file), unwrap(polygons, atlas_options(size), progress).uv);
+}
+
+/// What viewers shade: the file's own mesh, cut into triangles, where repairs have left as many.
+TriangleMesh shaded_mesh(const PolygonMesh& mesh, const TriangleMesh& shape) {
+  std::vector<Finding> ignored;
+  TriangleMesh shaded = triangulate(mesh, ignored).mesh;
+  return shaded.triangles.size() == shape.triangles.size() ? shaded : shape;
 }
 
 }  // namespace
 
-std::string baked_glb(CoatFields fields, const Look& look, int size, const SaveOptions& options,
-                      const Progress& progress) {
+TexturedMesh textured_coat(CoatFields fields, ShapeFile file, const Look& look, int size, const Progress& progress) {
   require_surface(fields, size);
-  if (!has_uv(*fields.shape)) fields.shape = with_atlas(*fields.shape, size, progress);
+  file.mesh = *fields.shape;
+  if (!has_uv(file.mesh)) {
+    file = with_atlas(std::move(file), size, progress);
+    fields.shape = std::make_shared<const TriangleMesh>(file.mesh);
+  }
   const TriangleMesh& shape = *fields.shape;
   const UvLayout layout(shape.triangles, *shape.find("uv"), size);
   if (layout.tiles().size() > 1)
@@ -43,17 +54,19 @@ std::string baked_glb(CoatFields fields, const Look& look, int size, const SaveO
   Look as_given = look, smooth = look;
   as_given.keep_shape = true;
   smooth.keep_shape = false;
-  PolygonMesh mesh = kept_shape(own_form(shape), dress(fields, as_given), paint);
+  TexturedMesh result;
+  result.mesh = kept_shape(file.source ? *file.source : own_form(shape), dress(fields, as_given), paint);
   std::optional<ShadingFrames> frames;
-  if (paint.channels.contains(Channel::height)) frames.emplace(shape);
+  if (paint.channels.contains(Channel::height)) frames.emplace(shaded_mesh(result.mesh, shape));
   const Tessellation t = tessellate(fields, tessellation_request(smooth, paint));
   const CoatSampler sampler(fields, t, paint);
   BakedCoat baked = bake(sampler, make_palette(paint, t.samples, fields.uniform), layout, frames ? &*frames : nullptr);
-  SaveOptions textured = options;
-  textured.textures = {maps_of(std::move(baked.tiles[0]), baked.scales)};
-  textured.repeat = layout.repeats();
-  erase_imaged(mesh.attributes, textured.textures[0]);
-  return mesh_bytes(mesh, ".glb", textured);
+  result.size = size;
+  result.repeat = layout.repeats();
+  result.height = std::move(baked.tiles[0].height);
+  result.maps = maps_of(std::move(baked.tiles[0]), baked.scales);
+  erase_imaged(result.mesh.attributes, result.maps);
+  return result;
 }
 
 }  // namespace pelage

@@ -1,12 +1,11 @@
 #pragma once
-// The pattern in a file, as pelage measure sees it.
+// The pattern in a file, and which of its numbers is measured.
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "measure/pattern.h"
-#include "pelage/io.h"
+#include "pelage/measure.h"
 
 namespace pelage {
 
@@ -14,9 +13,7 @@ namespace pelage {
 enum class Ground { surface, cloud, volume };
 Ground ground_of(const ShapeFile& file);
 
-/// What can be measured: numbers at every vertex, "u" or "u_2" of a vector.
-std::vector<std::string> field_names(const TriangleMesh& mesh);
-/// That of a name, or the first without one. Error where there is none; `path`: of the file.
+/// The number of that name at every vertex, or the first without one. Error where there is none; `path`: of the file.
 Attribute field_of(const TriangleMesh& mesh, const std::string& name, const std::string& path);
 
 /// `level`: where parts end, see measure_pattern().

@@ -1,4 +1,4 @@
-#include "measured_coat.h"
+#include "catalog/measured_coat.h"
 
 #include <algorithm>
 #include <memory>
@@ -8,6 +8,7 @@
 #include "direction/direction_field.h"
 #include "discretise/cell_space.h"
 #include "measure/node_pattern.h"
+#include "measure/pattern.h"
 #include "react/formula.h"
 #include "shape/cells.h"
 
@@ -79,14 +80,17 @@ Attribute field_of(const TriangleMesh& mesh, const std::string& name, const std:
                 "there is no number at the vertices to measure; a coat in .vtp, .ply, .vtu or .vti has its species",
                 {path});
   const auto named = std::ranges::find(fields, name, &Field::name);
-  if (!name.empty() && named == fields.end())
-    throw Error(Fault::usage, "--field: " + unknown_name("field", name, field_names(mesh)));
+  if (!name.empty() && named == fields.end()) throw Error(Fault::usage, unknown_name("field", name, field_names(mesh)));
   const Field& field = name.empty() ? fields.front() : *named;
   Attribute result{field.name, 1, Domain::vertex, {}};
   for (std::size_t i = static_cast<std::size_t>(field.component); i < field.attribute->values.size();
        i += static_cast<std::size_t>(field.attribute->components))
     result.values.push_back(field.attribute->values[i]);
   return result;
+}
+
+PatternMeasures measure(const ShapeFile& shape, const std::string& field, const std::optional<double>& level) {
+  return measure_coat(shape, field_of(shape.mesh, field, shape.name), level);
 }
 
 double wavelength_of(double wave_number) { return 2 * std::numbers::pi / wave_number; }

@@ -1,0 +1,15 @@
+#pragma once
+// A coat as images on its shape.
+
+#include "discretise/coat_fields.h"
+#include "look/palette.h"
+#include "pelage/grow.h"
+
+namespace pelage {
+
+/// The shape as it was given with the coat as square images of so many texels a side, on its own uv or else on an atlas
+/// that is made for it. `file`: what the shape was read from; its mesh is that of the fields. Error(Fault::usage) for
+/// shapes that are no surfaces and uv of several images.
+TexturedMesh textured_coat(CoatFields fields, ShapeFile file, const Look& look, int size, const Progress& progress);
+
+}  // namespace pelage
