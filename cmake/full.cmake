@@ -94,6 +94,11 @@ if(cli_sources)
   install(TARGETS pelage_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
+option(PELAGE_PYTHON "Build the module of the Python package, where pybind11 is found" OFF)
+if(PELAGE_PYTHON)
+  include(cmake/python.cmake)
+endif()
+
 if(PELAGE_TESTS)
   enable_testing()
   add_subdirectory(tests)
