@@ -133,6 +133,13 @@ class Coat:
         """A picture: (height, width, 3), linear light; save_png() writes it. Angles in degrees."""
         return self._mesh.render(width, height, samples, azimuth, elevation, up or self.shape.up, progress)
 
+    def _repr_png_(self) -> bytes:
+        """What a notebook shows of it."""
+        grid = self.shape.grid
+        flat = grid is not None and grid["dimension"] == 2
+        picture = self.image().astype(np.float32) if flat else self.render(512, 512, samples=16)
+        return _core.png_bytes(picture)
+
     def _baked(self, size: int) -> _core.TexturedMesh:
         self._require_moment("its images")
         return self._growth.bake(size)

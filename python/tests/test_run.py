@@ -137,6 +137,16 @@ def test_recipe_as_text(sphere):
     assert np.array_equal(coat.fields["b"], same.fields["b"])
 
 
+def test_pictures(sphere, tmp_path):
+    coat = pelage.grow(sphere, size=0.3, until=300)
+    picture = coat.render(64, 48, samples=4)
+    assert picture.shape == (48, 64, 3) and picture.dtype == np.float32 and np.ptp(picture) > 0.3
+    pelage.save_png(picture, tmp_path / "coat.png")
+    data = (tmp_path / "coat.png").read_bytes()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n" and data[16:24] == bytes([0, 0, 0, 64, 0, 0, 0, 48])
+    assert pelage.tile("weave", nodes=32, size="16px", steps=3)._repr_png_()[:8] == data[:8]
+
+
 def test_strokes_are_followed(sphere):
     """Directions of an anisotropic model run along a stroke around the equator."""
     angle = np.linspace(0, 2 * np.pi, 200)
