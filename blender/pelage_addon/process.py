@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 
 _PROGRESS = re.compile(r"pelage: (.*?)(?: (\d+) %(?:, (.*) left)?)?$")
 _SECONDS_TO_END = 5
@@ -52,11 +53,12 @@ class Job:
         self.task, self.fraction, self.left = "starting", 0.0, ""
         self.warnings = []
         self.cancelled = False
-        self._errors, self._output, self._process, self._readers = [], "", None, []
+        self._errors, self._output, self._process, self._readers, self._later = [], "", None, [], []
 
-    def start(self, command: list):
-        """Begins; the command is that of a shell, its program first."""
-        self._process = _popen(command, self.folder)
+    def start(self, *commands: list):
+        """Begins the first command, a list of words with the program first; each other one follows the one before."""
+        self._later = list(commands[1:])
+        self._process = _popen(commands[0], self.folder)
         self._readers = [threading.Thread(target=read, daemon=True) for read in (self._read_errors, self._read_output)]
         for reader in self._readers:
             reader.start()
@@ -82,18 +84,24 @@ class Job:
 
     @property
     def running(self) -> bool:
-        """Whether the program has not ended yet."""
-        return self._process is not None and self._process.poll() is None
+        """Whether there is something to wait for; begins the next command where one has done its part."""
+        if self._process is None or self._process.poll() is None:
+            return self._process is not None
+        if self._process.returncode or self.cancelled or not self._later:
+            return False
+        self._join()
+        self.start(*self._later)
+        return True
 
-    def wait(self):
-        """Until the program has ended and all it said has been read."""
-        self._process.wait()
+    def _join(self):
         for reader in self._readers:
             reader.join()
 
     def result(self) -> dict:
-        """What the program did, after its end; raises Failure if it did not."""
-        self.wait()
+        """What the last command did; raises Failure if any did not end well."""
+        while self.running:
+            time.sleep(0.02)
+        self._join()
         if self.cancelled:
             raise Failure("Cancelled")
         if self._process.returncode:
@@ -116,6 +124,5 @@ class Job:
         """Nothing is left behind: no process, no files."""
         if self.running:
             self.cancel()
-        for reader in self._readers:
-            reader.join()
+        self._join()
         shutil.rmtree(self.folder, ignore_errors=True)
