@@ -8,7 +8,7 @@ from . import catalogue, operators, panel, settings
 bl_info = {
     "name": "Pelage",
     "author": "The authors of Pelage",
-    "version": (1, 0, 0),
+    "version": (0, 1, 0),
     "blender": (3, 4, 0),
     "location": "3D View > Sidebar > Pelage",
     "description": "Grows coats of animals, and other patterns of reaction and diffusion, on meshes",

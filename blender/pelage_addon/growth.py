@@ -191,7 +191,15 @@ class Growth:
         for note in self.notes:
             settings.say("INFO", note)
         for warning in told.get("warnings", []):
-            settings.say("WARNING", warning)
+            settings.say("WARNING", in_blender(warning))
+
+
+def in_blender(text: str) -> str:
+    """What the program advises, in the words of the panel."""
+    for words, here in (("--flat instead of --keep-shape splits its triangles",
+                         "subdivide the mesh, or choose Images or a New Mesh"), ("--bake", "Pixels")):
+        text = text.replace(words, here)
+    return text
 
 
 def length(value: float) -> str:

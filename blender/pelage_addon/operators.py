@@ -5,7 +5,7 @@ import bpy
 from bpy.props import FloatProperty
 
 from . import catalogue, figure, settings as object_settings
-from .growth import Fairing, Growth
+from .growth import Fairing, Growth, in_blender
 from .process import Failure
 
 _SECONDS_BETWEEN_LOOKS = 0.1
@@ -30,7 +30,7 @@ def redraw(context):
     for window in context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
-                area.tagredraw()
+                area.tag_redraw()
 
 
 class _Run:
@@ -67,7 +67,7 @@ class _Run:
         try:
             told = work.finish(context)
             for warning in told.get("warnings") or []:
-                self.report({"WARNING"}, warning)
+                self.report({"WARNING"}, in_blender(warning))
             return {"FINISHED"}
         except Failure as failure:
             if not work.job.cancelled:
