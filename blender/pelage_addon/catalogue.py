@@ -84,18 +84,10 @@ class Coat:
         """What the program says of the model of that stage, or None."""
         return self.catalogue.model(recipe_text.stage_value(self.text, stage, "model") or "", self.folder)
 
-    def species(self) -> list:
-        """All that the files can hold, as STAGE_SPECIES and, of the last stage, SPECIES."""
-        names = []
-        for k, stage in enumerate(self.stages):
-            own = [species["name"] for species in (self.model_of(k) or {"species": []})["species"]]
-            names += own if k + 1 == len(self.stages) else [f"{stage}_{name}" for name in own]
-        return names
-
     def follows_directions(self, stage: int) -> bool:
         """Whether directions do anything there; of a model that nobody knows they may."""
         model = self.model_of(stage)
-        return model is None or any(species["anisotropy"] or species["tensor"] for species in model["species"])
+        return model is None or any(species["anisotropy"] for species in model["species"])
 
     def files(self) -> list:
         """What the recipe names beside itself, as far as it is there and in its folder."""

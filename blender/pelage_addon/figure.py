@@ -8,7 +8,7 @@ from mathutils.geometry import interpolate_bezier
 
 from . import ply
 from .process import Failure
-from .recipe_text import formula_name
+from .recipe_text import formula_name, is_part_of
 
 AXES = {"X": (1, 0, 0), "-X": (-1, 0, 0), "Y": (0, 1, 0), "-Y": (0, -1, 0), "Z": (0, 0, 1), "-Z": (0, 0, -1)}
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
@@ -164,22 +164,13 @@ def _columns_of(mesh, groups: dict, source: str, name: str) -> dict:
     return _attribute_columns(mesh, attribute, name) if attribute else {}
 
 
-def _is_part_of(wanted: str, name: str) -> bool:
-    """Whether a formula's name is that of the thing or of a component: tail, tail_1, tail_linear_2."""
-    rest = wanted.lower().removeprefix(name.lower())
-    return wanted.lower().startswith(name.lower()) and (not rest or rest in _ENDINGS)
-
-
-_ENDINGS = {f"_{k}" for k in (1, 2, 3, 4)} | {f"_linear_{k}" for k in (1, 2, 3)}
-
-
 def painted(obj, mesh, wanted: set) -> tuple:
     """What formulas want of the object's groups and attributes, as numbers per vertex; and lines about names."""
     groups = {group.name: group.index for group in obj.vertex_groups}
     columns, notes = {}, []
     for source in readable_names(obj):
         name = formula_name(source)
-        if not any(_is_part_of(one, name) for one in wanted):
+        if not any(is_part_of(one, name) for one in wanted):
             continue
         if name != source:
             notes.append(f"\"{source}\" is attribute({name}) in formulas")

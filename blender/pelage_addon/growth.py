@@ -86,6 +86,8 @@ class Growth:
         text = _change_recipe(obj, coat, self.frame, self.notes)
         self.evaluated = settings.modifiers != "IGNORE" and any(m.show_viewport for m in obj.modifiers)
         wanted = recipe_text.attributes_in(text, settings.height, *_parameter_words(obj))
+        brought = ["uv", *recipe_text.painted_names(text)]
+        wanted = {one for one in wanted if not any(recipe_text.is_part_of(one, name) for name in brought)}
         with figure.shown_mesh(context, obj, self.evaluated) as mesh:
             self._check(obj, mesh)
             self._write(obj, mesh, wanted)
@@ -117,9 +119,19 @@ class Growth:
             self.uv = mesh.uv_layers.active.name
         polygons = figure.polygons(mesh, self.frame, self.uv)
         polygons.columns, notes = figure.painted(obj, mesh, wanted)
+        there = {column.lower() for column in polygons.columns}
+        self._require(obj, {one for one in wanted if one.lower() not in there})
         self.sent = set(polygons.columns)
         self.notes += notes
         ply.write(os.path.join(self.job.folder, "figure.ply"), polygons)
+
+    @staticmethod
+    def _require(obj, missing: set):
+        """The program knows only what it is sent; its word for what is missing would not fit here."""
+        if missing:
+            known = ", ".join(recipe_text.formula_name(name) for name in figure.readable_names(obj))
+            raise Failure(f"Formulas read attribute({min(missing)}), and \"{obj.name}\" has no such vertex group or "
+                          f"attribute; it has: {known or 'none'}")
 
     def _commands(self, context, obj, program: str) -> list:
         settings, shape, commands = obj.pelage, "figure.ply", []

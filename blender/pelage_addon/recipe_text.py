@@ -189,6 +189,11 @@ def attributes_in(*formulas: str) -> set:
     return {name for formula in formulas for name in _ATTRIBUTE.findall(formula)}
 
 
+def painted_names(text: str) -> list:
+    """What a recipe brings along for attribute(NAME): its images and brushes."""
+    return [_value(text, table, "name") for table in tables(text) if table.name in ("texture", "brush")]
+
+
 def files_named(text: str) -> list:
     """What a recipe may name beside itself: images and models."""
     found = []
@@ -198,6 +203,12 @@ def files_named(text: str) -> list:
         if value and (key == "file" or ".toml" in value):
             found.append(re.sub(r"(\.toml):.*", r"\1", value))
     return found
+
+
+def is_part_of(wanted: str, name: str) -> bool:
+    """Whether a formula's name is that of a thing or of its component: tail, tail_1, tail_linear_2, in any case."""
+    wanted, name = wanted.lower(), name.lower()
+    return wanted.startswith(name) and re.fullmatch("(_[1-4]|_linear_[1-3])?", wanted[len(name):]) is not None
 
 
 def formula_name(name: str) -> str:

@@ -451,7 +451,7 @@ def painted_weights():
     near(wavelength(obj, "pelage_b", lambda p: p[:, 0] > 0.3), 0.30, 0.12, "weight 1: wavelength")
     # A formula says the same.
     by_name = attribute(obj, "pelage_b")
-    grow(obj, size_map="1 + attribute(Fat_half_L)")
+    grow(obj, size_map="1 + attribute(fat_half_l)")
     assert np.array_equal(attribute(obj, "pelage_b"), by_name)
     refused(obj, "Fat_hal", size_map="1 + attribute(Fat_hal)")
 
@@ -528,7 +528,7 @@ def bow(name):
 
 
 def along(obj, k):
-    return measure(obj, "pelage_" + field_of(obj))["stripes"]["along"][k]
+    return measure(obj, "pelage_" + field_of(obj))["along"][k]
 
 
 def field_of(obj):
@@ -548,7 +548,7 @@ def drawn_directions():
             ends = [(3 - 0.9 * (k == 0), 1 - 0.9 * (k == 1), 2), (3 + 0.9 * (k == 0), 1 + 0.9 * (k == 1), 2)]
             way = make([Vector(ends[0]).lerp(Vector(ends[1]), t) - Vector((7, 0, 0)) for t in (0, 0.25, 0.5, 0.75, 1)])
             way.location = (7, 0, 0)
-            grow(obj, coat="model:combed-stripes", size=0.15, strokes=way)
+            grow(obj, coat="model:witkin-kass-stripes", size=0.15, strokes=way)
             share = along(obj, k)
             told.append(f"{kind} along {axis}: {share:.3f} of the stripes")
             assert share > 0.9, f"{kind} along {axis}: only {share} of the stripes run along it"
@@ -562,7 +562,7 @@ def bent_directions():
     """Along a bow of a Bezier curve stripes bend with it: measured by the slopes near it."""
     clear()
     obj = grid(120, 3)
-    grow(obj, coat="model:combed-stripes", size=0.12, strokes=bow("Bow"))
+    grow(obj, coat="model:witkin-kass-stripes", size=0.12, strokes=bow("Bow"))
     field, points = attribute(obj, "pelage_" + field_of(obj)), places(obj)
     n = 121
     at = np.lexsort((points[:, 0].round(6), points[:, 1].round(6)))
