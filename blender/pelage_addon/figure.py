@@ -207,17 +207,13 @@ def _curve_strokes(curve) -> list:
     return strokes
 
 
-def _pencil_strokes(data) -> list:
-    strokes = []
-    for layer in data.layers:
-        if layer.hide:
-            continue
-        if hasattr(layer, "current_frame"):  # from 4.3 on
-            drawing = layer.current_frame().drawing if layer.current_frame() else None
-            strokes += [[p.position for p in stroke.points] for stroke in drawing.strokes] if drawing else []
-        elif layer.active_frame:
-            strokes += [[p.co for p in stroke.points] for stroke in layer.active_frame.strokes]
-    return strokes
+def _layer_strokes(layer) -> list:
+    """What a layer of grease pencil shows now."""
+    if hasattr(layer, "current_frame"):  # from 4.3 on
+        frame, place = layer.current_frame(), layer.matrix_local
+        return [[place @ p.position for p in stroke.points] for stroke in frame.drawing.strokes] if frame else []
+    frame, place = layer.active_frame, layer.matrix_layer
+    return [[place @ p.co for p in stroke.points] for stroke in frame.strokes] if frame else []
 
 
 def strokes_of(obj, frame: Frame) -> list:
@@ -227,7 +223,7 @@ def strokes_of(obj, frame: Frame) -> list:
     elif obj.type == "CURVES":
         lines = [[point.position for point in curve.points] for curve in obj.data.curves]
     else:
-        lines = _pencil_strokes(obj.data)
+        lines = [stroke for layer in obj.data.layers if not layer.hide for stroke in _layer_strokes(layer)]
     lines = [np.array([obj.matrix_world @ Vector(point) for point in line]) for line in lines if len(line) > 1]
     if not lines:
         raise Failure(f"\"{obj.name}\" has no line of two points or more, to take directions from")

@@ -33,18 +33,26 @@ def redraw(context):
                 area.tag_redraw()
 
 
+def _hindrance(obj) -> str:
+    """Why nothing can be begun on the object; empty where it can."""
+    if _current:
+        return f"The program is at work on \"{_current.name}\""
+    if not figure.is_mesh(obj):
+        return "Make a mesh the active object"
+    if obj.library or obj.data.library:
+        return "The mesh is linked from another file: make it local first"
+    return "Leave Edit Mode first" if obj.mode == "EDIT" else ""
+
+
 class _Run:
     """Of operators that let the program work: a user goes on meanwhile, a script waits."""
 
     @classmethod
     def poll(cls, context):
-        if _current:
-            cls.poll_message_set(f"A coat is growing on \"{_current.name}\"")
-        elif not figure.is_mesh(context.active_object):
-            cls.poll_message_set("Make a mesh the active object")
-        elif context.active_object.mode == "EDIT":
-            cls.poll_message_set("Leave Edit Mode first")
-        return not _current and figure.is_mesh(context.active_object) and context.active_object.mode != "EDIT"
+        hindrance = _hindrance(context.active_object)
+        if hindrance:
+            cls.poll_message_set(hindrance)
+        return not hindrance
 
     def _start(self, context):
         global _current

@@ -149,9 +149,9 @@ class PELAGE_PT_parameters(_Part, bpy.types.Panel):
         layout, settings = self.layout, context.active_object.pelage
         layout.use_property_split, layout.use_property_decorate = True, False
         names = figure.readable_names(context.active_object)
-        stage = ""
+        stage, several = "", len({parameter.stage for parameter in settings.parameters}) > 1
         for parameter in settings.parameters:
-            if parameter.stage != stage:
+            if several and parameter.stage != stage:
                 stage = parameter.stage
                 layout.label(text=stage)
             layout.prop(parameter, '["value"]', text=parameter.name)

@@ -135,10 +135,8 @@ def set_uv(mesh, texcoord: np.ndarray, mirrored: bool) -> str:
 # --- a mesh of its own -------------------------------------------------------------------------------------------
 
 
-def new_mesh(obj, path: str, frame: figure.Frame, displace: bool) -> tuple:
-    """The finer mesh as an object beside; that of an earlier run gets it instead. Returns it and lines."""
-    coat = ply.read(path)
-    name = f"{obj.name} coat"
+def _make_mesh(name: str, coat: ply.Mesh):
+    """A smooth mesh of Blender's."""
     mesh = bpy.data.meshes.new(name)
     starts = np.cumsum(coat.sizes) - coat.sizes
     mesh.vertices.add(len(coat.points))
@@ -147,23 +145,36 @@ def new_mesh(obj, path: str, frame: figure.Frame, displace: bool) -> tuple:
     mesh.loops.foreach_set("vertex_index", coat.corners.astype(np.int32))
     mesh.polygons.add(len(coat.sizes))
     mesh.polygons.foreach_set("loop_start", starts.astype(np.int32))
-    mesh.polygons.foreach_set("loop_total", coat.sizes.astype(np.int32))
+    if not bpy.types.MeshPolygon.bl_rna.properties["loop_total"].is_readonly:  # up to 3.5
+        mesh.polygons.foreach_set("loop_total", coat.sizes.astype(np.int32))
     mesh.polygons.foreach_set("use_smooth", np.ones(len(coat.sizes), bool))
     mesh.update(calc_edges=True)
-    set_attributes(mesh, coat)
+    return mesh
+
+
+def _object_beside(obj, mesh):
+    """The one that an earlier run has made gets the mesh and keeps its materials; or else a new one."""
     beside = next((other for other in bpy.data.objects if other.get("pelage_of") == obj.name), None)
     if beside:
-        old = beside.data
-        for slot in old.materials:
-            mesh.materials.append(slot)
-        beside.data = mesh
+        old, beside.data = beside.data, mesh
+        for material_before in old.materials:
+            mesh.materials.append(material_before)
         if old.users == 0:
             bpy.data.meshes.remove(old)
-    else:
-        beside = bpy.data.objects.new(name, mesh)
-        beside["pelage_of"] = obj.name
-        for collection in obj.users_collection:
-            collection.objects.link(beside)
+        return beside
+    beside = bpy.data.objects.new(mesh.name, mesh)
+    beside["pelage_of"] = obj.name
+    for collection in obj.users_collection:
+        collection.objects.link(beside)
+    return beside
+
+
+def new_mesh(obj, path: str, frame: figure.Frame, displace: bool) -> tuple:
+    """The finer mesh as an object beside; returns it and lines."""
+    coat = ply.read(path)
+    mesh = _make_mesh(f"{obj.name} coat", coat)
+    set_attributes(mesh, coat)
+    beside = _object_beside(obj, mesh)
     beside.matrix_world = Matrix(frame.world.tolist())
     return beside, material.dress(beside, attribute_sources(mesh), "", displace)
 
