@@ -196,7 +196,8 @@ class Growth:
         for stage in told["stages"]:
             spacing = stage["size"] if stage["size_known"] else stage["length_unit"]
             kind = "spacing" if stage["size_known"] else "unit"
-            settings.say("INFO", f"{stage['model']}: {kind} {length(spacing)}"
+            name = f"{stage['name']}, " if len(told["stages"]) > 1 else ""
+            settings.say("INFO", f"{name}{stage['model']}: {kind} {length(spacing)}"
                          + (f", along {stage['follows']}" if stage.get("follows") else ""))
         for finding in told["shape"]["findings"]:
             settings.say("INFO", finding["text"])
