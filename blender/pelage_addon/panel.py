@@ -93,7 +93,7 @@ class PELAGE_PT_coat(_Panel, bpy.types.Panel):
         except Failure as failure:
             return _draw_missing(layout, context, failure)
         if not figure.is_mesh(obj):
-            layout.label(text="Make a mesh the active object", icon="INFO")
+            _lines(layout, context, "Make a mesh the active object", "INFO")
         else:
             self._draw_settings(layout, context, obj)
         if operators.current():

@@ -31,11 +31,11 @@ def run(*words):
 
 def install():
     """From the zip into the test's own folder."""
-    scripts = os.environ["BLENDER_USER_SCRIPTS"]
+    scripts = os.path.realpath(os.environ["BLENDER_USER_SCRIPTS"])
     bpy.ops.preferences.addon_install(filepath=ZIP, overwrite=True)
     bpy.ops.preferences.addon_enable(module="pelage_addon")
     import pelage_addon
-    assert pelage_addon.__file__.startswith(scripts), f"{pelage_addon.__file__} is not in {scripts}"
+    assert os.path.realpath(pelage_addon.__file__).startswith(scripts), f"{pelage_addon.__file__} is not in {scripts}"
     return pelage_addon
 
 
@@ -246,6 +246,7 @@ def cancel():
     work.job.close()
     assert os.listdir(TEMPORARY) == []
     assert not os.path.exists(f"/proc/{number}"), "the program still runs"
+    assert work.job._process.returncode != -9, "it had to be killed"
     assert results.COLOR not in obj.data.attributes
     operators.stop()
 
