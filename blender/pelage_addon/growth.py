@@ -81,10 +81,11 @@ class Growth:
 
     def _begin(self, context, obj):
         settings = obj.pelage
+        self.result, self.modifiers, self.displace = settings.result, settings.modifiers, settings.displace  # of now
         coat = catalogue.Coat(settings)
         self.frame = figure.Frame(obj, settings.front, settings.up)
         text = _change_recipe(obj, coat, self.frame, self.notes)
-        self.evaluated = settings.modifiers != "IGNORE" and any(m.show_viewport for m in obj.modifiers)
+        self.evaluated = self.modifiers != "IGNORE" and any(m.show_viewport for m in obj.modifiers)
         wanted = recipe_text.attributes_in(text, settings.height, *_parameter_words(obj))
         brought = ["uv", *recipe_text.painted_names(text)]
         wanted = {one for one in wanted if not any(recipe_text.is_part_of(one, name) for name in brought)}
@@ -101,21 +102,19 @@ class Growth:
 
     def _check(self, obj, mesh):
         """What cannot be done is said before anything grows."""
-        self.kept = len(mesh.vertices) == len(obj.data.vertices)
-        settings = obj.pelage
         if not mesh.polygons:
             raise Failure(f"\"{obj.name}\" has no faces")
-        if settings.modifiers == "SHOWN" and not self.kept and settings.result == "VERTICES":
+        if self.modifiers == "SHOWN" and len(mesh.vertices) != len(obj.data.vertices) and self.result == "VERTICES":
             raise Failure("The modifiers make other vertices than the object's own, which cannot keep the coat: choose "
                           "Images or a New Mesh, or leave the modifiers out or apply them")
-        self.needs_uv = settings.result == "IMAGES" and not mesh.uv_layers
-        if self.needs_uv and settings.modifiers == "SHOWN" and self.evaluated:
+        self.needs_uv = self.result == "IMAGES" and not mesh.uv_layers
+        if self.needs_uv and self.modifiers == "SHOWN" and self.evaluated:
             raise Failure("The mesh has no uv for images, and cannot get one while it has modifiers: unwrap it, or "
                           "leave the modifiers out or apply them")
 
     def _write(self, obj, mesh, wanted: set):
         self.uv = ""
-        if obj.pelage.result == "IMAGES" and mesh.uv_layers:
+        if self.result == "IMAGES" and mesh.uv_layers:
             self.uv = mesh.uv_layers.active.name
         polygons = figure.polygons(mesh, self.frame, self.uv)
         polygons.columns, notes = figure.painted(obj, mesh, wanted)
@@ -139,7 +138,7 @@ class Growth:
             shape = "unwrapped.ply"
             commands.append([program, "unwrap", "figure.ply", "-o", shape, "--resolution", str(settings.pixels)])
         form = {"VERTICES": ["--keep-shape", "-o", "coat.ply"], "MESH": ["-o", "coat.ply"],
-                "IMAGES": ["--bake", str(settings.pixels), "--maps", "coat"]}[settings.result]
+                "IMAGES": ["--bake", str(settings.pixels), "--maps", "coat"]}[self.result]
         commands.append([program, "grow", shape, "--recipe", "coat.toml", *_pattern_words(context, obj), *form, "--json"])
         return commands
 
@@ -152,7 +151,7 @@ class Growth:
         was_edited = obj.mode == "EDIT"
         if was_edited:
             bpy.ops.object.mode_set(mode="OBJECT")
-        if obj.pelage.modifiers == "APPLY" and self.evaluated:
+        if self.modifiers == "APPLY" and self.evaluated:
             self._apply_modifiers(context, obj)
         self._deliver(obj, told)
         if was_edited:
@@ -174,22 +173,23 @@ class Growth:
             obj.modifiers.remove(modifier)
 
     def _deliver(self, obj, told: dict):
-        settings, folder = obj.pelage, self.job.folder
-        path = os.path.join(folder, "coat.ply")
-        if settings.result == "IMAGES":
-            uv = self.uv
-            if self.needs_uv:
-                atlas = ply.read(os.path.join(folder, "unwrapped.ply"))
-                if len(atlas.corners) != len(obj.data.loops):
-                    raise Failure(f"\"{obj.name}\" was changed while its coat grew")
-                uv = results.set_uv(obj.data, atlas.corner_lists["texcoord"], self.frame.mirrored)
-                self.notes.append(f"The mesh had no uv and has got an atlas, the uv map \"{uv}\"")
-            self.notes += results.as_images(obj, folder, told["files"], uv, settings.displace)
-        elif settings.result == "MESH":
-            beside, notes = results.new_mesh(obj, path, self.frame, settings.displace)
+        path = os.path.join(self.job.folder, "coat.ply")
+        if self.result == "IMAGES":
+            uv = self._make_uv(obj) if self.needs_uv else self.uv
+            self.notes += results.as_images(obj, self.job.folder, told["files"], uv, self.displace)
+        elif self.result == "MESH":
+            beside, notes = results.new_mesh(obj, path, self.frame, self.displace)
             self.notes += [f"The coat is the object \"{beside.name}\"", *notes]
         else:
-            self.notes += results.on_vertices(obj, path, self.sent, settings.displace)
+            self.notes += results.on_vertices(obj, path, self.sent, self.displace)
+
+    def _make_uv(self, obj) -> str:
+        atlas = ply.read(os.path.join(self.job.folder, "unwrapped.ply"))
+        if len(atlas.corners) != len(obj.data.loops):
+            raise Failure(f"\"{obj.name}\" was changed while its coat grew")
+        uv = results.set_uv(obj.data, atlas.corner_lists["texcoord"], self.frame.mirrored)
+        self.notes.append(f"The mesh had no uv and has got an atlas, the uv map \"{uv}\"")
+        return uv
 
     def _tell(self, settings, told: dict):
         settings.messages.clear()

@@ -334,10 +334,15 @@ def relief():
     assert image_of(obj, "normal").colorspace_settings.name == "Non-Color"
     normal = pixels_at(image_of(obj, "normal"), corner_uv(obj))[:, :3]
     assert normal[:, 2].mean() > 0.9 and normal[:, 0].std() > 0.005, "no normal map"
-    grow(obj, displace=True, height="0.1*bx")  # spacings, from end to end twice as many
+    grow(obj, result="VERTICES")
+    assert obj.active_material.node_tree.nodes["Pelage roughness"].attribute_name == "pelage_material_roughness"
+    assert np.ptp(attribute(obj, "pelage_material_roughness")) > 0.05
+    assert {"Pelage relief", "Pelage height"} <= set(comes_from(principled(obj).inputs["Normal"]))
+    grow(obj, result="IMAGES", displace=True, height="0.1*bx")  # spacings, from end to end twice as many
     output = next(n for n in obj.active_material.node_tree.nodes if n.type == "OUTPUT_MATERIAL")
     assert "Pelage height" in comes_from(output.inputs["Displacement"])
     assert not principled(obj).inputs["Normal"].links, "relief twice"
+    assert obj.active_material.node_tree.nodes["Pelage relief"].space == "WORLD", "heights are lengths of the scene"
     height = pixels_at(image_of(obj, "height"), corner_uv(obj))[:, 0]
     near(np.ptp(height), 0.2 * 0.055 * obj.dimensions.length, 0.05, "relief: height")
     grow(obj, coat="recipe:leopard", displace=False, height="")
@@ -355,6 +360,11 @@ def without_uv():
         obj = ball(4)
         obj.data.uv_layers.remove(obj.data.uv_layers[0])
         obj.scale = (scale, 1, 1)
+        bpy.context.view_layer.update()
+        sent = figure.polygons(obj.data, figure.Frame(obj, "X", "Z"), None)
+        corners = sent.points[sent.corners.reshape(-1, 3)]
+        volume = np.linalg.det(corners).sum() / 6
+        assert abs(volume / (4 / 3 * math.pi) - 1) < 0.05, f"scale {scale}: the shape is sent inside out"
         grow(obj, coat="model:turing", size=0.4)
         asked = colors(obj)[figure.numbers(obj.data.loops, "vertex_index", kind=np.int32)]
         grow(obj, result="IMAGES", pixels=512)
@@ -560,11 +570,14 @@ def drawn_directions():
 
 
 def bent_directions():
-    """Along a bow of a Bezier curve stripes bend with it: measured by the slopes near it."""
+    """Along a bow of a Bezier curve stripes bend with it, far from the origin and turned: by the slopes near it."""
     clear()
-    obj = grid(120, 3)
-    grow(obj, coat="model:witkin-kass-stripes", size=0.12, strokes=bow("Bow"))
-    field, points = attribute(obj, "pelage_" + field_of(obj)), places(obj)
+    obj, way = grid(120, 3), bow("Bow")
+    obj.location, obj.rotation_euler = (3, 1, 2), (0.3, 0.2, 0.7)
+    bpy.context.view_layer.update()
+    way.matrix_world = obj.matrix_world
+    grow(obj, coat="model:witkin-kass-stripes", size=0.12, strokes=way)
+    field, points = attribute(obj, "pelage_" + field_of(obj)), figure.numbers(obj.data.vertices, "co", 3)
     n = 121
     at = np.lexsort((points[:, 0].round(6), points[:, 1].round(6)))
     dy, dx = np.gradient(field[at].reshape(n, n), 3 / 120)
@@ -574,7 +587,7 @@ def bent_directions():
     radial = ((dx * x + dy * y) / np.maximum(radius, 1e-9)) ** 2  # across the bow
     share = radial[near_it].sum() / (dx ** 2 + dy ** 2)[near_it].sum()
     told.append(f"bow: {share:.3f} of the slopes across it")
-    assert share > 0.85, f"only {share} of the slopes are across the bow"
+    assert share > 0.9, f"only {share} of the slopes are across the bow"
 
 
 def fairing():

@@ -120,7 +120,9 @@ def grown_and_undone():
     figure.pelage.coat, figure.pelage.size, figure.pelage.seed = "model:turing", 0.25, 3
     in_view(bpy.ops.ed.undo_push, message="before")
     assert in_view(bpy.ops.pelage.grow, "INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    figure.pelage.result = "IMAGES"  # for the next time
     yield from until(nothing_left, "the coat has grown")
+    figure.pelage.result = "VERTICES"
     assert results.COLOR in figure.data.attributes, [m.name for m in figure.pelage.messages]
     view().spaces[0].shading.color_type = "VERTEX"
     yield 1.0
@@ -130,6 +132,20 @@ def grown_and_undone():
     assert bpy.data.objects["Figure"].pelage.seed == 3, "undo takes more than the coat"
     in_view(bpy.ops.ed.redo)
     assert results.COLOR in bpy.data.objects["Figure"].data.attributes
+
+
+def edited_meanwhile():
+    """A coat that comes while its object is edited is not lost."""
+    figure = bpy.data.objects["Figure"]
+    figure.pelage.result = "VERTICES"  # redo has brought the other one
+    figure.data.attributes.remove(figure.data.attributes[results.COLOR])
+    assert in_view(bpy.ops.pelage.grow, "INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    in_view(bpy.ops.object.mode_set, mode="EDIT")
+    assert not in_view(bpy.ops.pelage.fair.poll)
+    yield from until(nothing_left, "the coat has grown")
+    assert figure.mode == "EDIT"
+    in_view(bpy.ops.object.mode_set, mode="OBJECT")
+    assert results.COLOR in figure.data.attributes, [m.name for m in figure.pelage.messages]
 
 
 def ended_with_the_file():
@@ -147,7 +163,7 @@ def steps():
     make_figure()
     bpy.app.timers.register(tick, persistent=True)
     yield 0.5
-    for part in (panels, cancelled, grown_and_undone, ended_with_the_file):
+    for part in (panels, cancelled, grown_and_undone, edited_meanwhile, ended_with_the_file):
         yield from part()
         assert not faults, faults[0]
     print(f"ok panels drawn {sum(drawn.values())} times; grown, cancelled, undone and ended", flush=True)
