@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Packs the Blender add-on with the pictures of the gallery: tools/blender_addon.py [ZIP], default out/pelage_addon.zip."""
+"""Packs the Blender add-on with the gallery's pictures. Usage: blender_addon.py [ZIP], default out/pelage_addon.zip"""
 import struct
 import sys
 import zipfile

@@ -89,6 +89,14 @@ def polygons(mesh, frame: Frame, uv) -> ply.Mesh:
     return ply.Mesh(points, sizes, corners, {}, lists)
 
 
+def tiles(mesh: ply.Mesh) -> int:
+    """How many images its uv lies in (UDIM); one where a face lies across the border of a tile, for then it repeats."""
+    uv, first = mesh.corner_lists["texcoord"], np.cumsum(mesh.sizes) - mesh.sizes
+    least, most = (np.floor(reduce.reduceat(uv, first) + nudge) for reduce, nudge in
+                   ((np.minimum, 1e-5), (np.maximum, -1e-5)))
+    return 1 if np.any(most > least) else len(np.unique(least, axis=0))
+
+
 # --- what formulas read ------------------------------------------------------------------------------------------
 
 

@@ -117,6 +117,9 @@ class Growth:
         if self.result == "IMAGES" and mesh.uv_layers:
             self.uv = mesh.uv_layers.active.name
         polygons = figure.polygons(mesh, self.frame, self.uv)
+        if self.uv and figure.tiles(polygons) > 1:
+            raise Failure(f"The uv \"{self.uv}\" lies in several tiles (UDIM), which the add-on does not load: move it "
+                          "into one, or let pelage grow --maps write the images")
         polygons.columns, notes = figure.painted(obj, mesh, wanted)
         there = {column.lower() for column in polygons.columns}
         self._require(obj, {one for one in wanted if one.lower() not in there})
@@ -139,8 +142,8 @@ class Growth:
             commands.append([program, "unwrap", "figure.ply", "-o", shape, "--resolution", str(settings.pixels)])
         form = {"VERTICES": ["--keep-shape", "-o", "coat.ply"], "MESH": ["-o", "coat.ply"],
                 "IMAGES": ["--bake", str(settings.pixels), "--maps", "coat"]}[self.result]
-        commands.append([program, "grow", shape, "--recipe", "coat.toml", *_pattern_words(context, obj), *form, "--json"])
-        return commands
+        words = [*_pattern_words(context, obj), *form, "--json"]
+        return [*commands, [program, "grow", shape, "--recipe", "coat.toml", *words]]
 
     def finish(self, context) -> dict:
         """Puts the coat into the scene, and what there is to say into the object's settings."""

@@ -1,4 +1,4 @@
-"""The nodes that show a coat in the object's materials. They are known by their names; what a user does with them stays."""
+"""The nodes that show a coat in the object's materials: known by their names, and a user may do with them as he likes."""
 from dataclasses import dataclass
 
 import bpy

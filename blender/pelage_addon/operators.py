@@ -90,7 +90,7 @@ class _Run:
         if not self._start(context):
             return {"CANCELLED"}
         try:
-            while _current.job.running:
+            while _current.job.running():
                 time.sleep(0.02)
         except BaseException:
             stop()
@@ -109,7 +109,7 @@ class _Run:
         """All events but the timer's are for others."""
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
-        if _current and _current.job.running:
+        if _current and _current.job.running():
             redraw(context)
             return {"PASS_THROUGH"}
         context.window_manager.event_timer_remove(self._timer)

@@ -45,7 +45,7 @@ def answer(program: str, *words: str) -> str:
 class Job:
     """A run of the program in a temporary folder of its own, which is gone after `close`.
 
-    Whoever starts it asks `running` now and then, reads `task`, `fraction` and `left`, and at the end `result`.
+    Whoever starts it asks `running()` now and then, reads `task`, `fraction` and `left`, and at the end `result`.
     """
 
     def __init__(self):
@@ -82,7 +82,6 @@ class Job:
         else:
             self._errors.append(line)
 
-    @property
     def running(self) -> bool:
         """Whether there is something to wait for; begins the next command where one has done its part."""
         if self._process is None or self._process.poll() is None:
@@ -99,7 +98,7 @@ class Job:
 
     def result(self) -> dict:
         """What the last command did; raises Failure if any did not end well."""
-        while self.running:
+        while self.running():
             time.sleep(0.02)
         self._join()
         if self.cancelled:
@@ -111,7 +110,7 @@ class Job:
     def cancel(self):
         """Asks the program to end; one that does not listen is killed."""
         self.cancelled = True
-        if not self.running:
+        if not self.running():
             return
         self._process.terminate()
         try:
@@ -122,7 +121,7 @@ class Job:
 
     def close(self):
         """Nothing is left behind: no process, no files."""
-        if self.running:
+        if self.running():
             self.cancel()
         self._join()
         shutil.rmtree(self.folder, ignore_errors=True)

@@ -6,7 +6,8 @@ import json
 import re
 from dataclasses import dataclass, field
 
-_KEY = re.compile(r"""[ \t]*((?:[\w-]+|"[^"\n]*"|'[^'\n]*')(?:[ \t]*\.[ \t]*(?:[\w-]+|"[^"\n]*"|'[^'\n]*'))*)[ \t]*=[ \t]*""")
+_PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
+_KEY = re.compile(rf"[ \t]*({_PART}(?:[ \t]*\.[ \t]*{_PART})*)[ \t]*=[ \t]*")
 _HEADER = re.compile(r"[ \t]*\[\[?([^\]\n]*)\]")
 _ATTRIBUTE = re.compile(r"\battribute\(\s*([A-Za-z_]\w*)\s*\)")
 _LENGTH = re.compile(r"[+-]?\d[\d_]*(\.\d+)?([eE][+-]?\d+)?$")

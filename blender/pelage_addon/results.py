@@ -66,8 +66,8 @@ def on_vertices(obj, path: str, sent, displace: bool) -> list:
     """Onto the object's own mesh."""
     coat = ply.read(path)
     if len(coat.points) != len(obj.data.vertices):
-        raise Failure(f"\"{obj.name}\" has {len(obj.data.vertices)} vertices, and the coat {len(coat.points)}: the mesh "
-                      "was changed while it grew")
+        raise Failure(f"\"{obj.name}\" has {len(obj.data.vertices)} vertices, and the coat {len(coat.points)}: the "
+                      "mesh was changed while it grew")
     set_attributes(obj.data, coat, sent)
     obj.data.update()
     return material.dress(obj, attribute_sources(obj.data), "", displace)
@@ -115,9 +115,6 @@ def as_images(obj, folder: str, files: list, uv: str, displace: bool) -> list:
             sources[channel] = material.Source(image=image, strength=float(white[1]) if white else 1)
     if "coat-thickness.png" in about:
         notes.append("The coat's thickness of glass has no place in Blender's Principled BSDF and is left out")
-    if "color" not in sources:
-        raise Failure("The uv lies in several tiles (UDIM), which the add-on does not load: move it into the first one, "
-                      "or let pelage grow --maps write the images")
     notes += material.dress(obj, sources, uv, displace)
     _remove_unused(old)
     return notes

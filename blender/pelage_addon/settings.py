@@ -85,7 +85,7 @@ class Settings(bpy.types.PropertyGroup):
         ("draft", "Draft", "At once"), ("normal", "Normal", "As good as a picture shows"),
         ("fine", "Fine", "For measurements")])
     front: EnumProperty(name="Front", default="-Y", items=_AXES,
-                        description="Where the figure looks: x of formulas, which recipes with a belly or haunches need")
+                        description="Where the figure looks: x of formulas, which recipes with haunches need")
     up: EnumProperty(name="Up", default="Z", items=_AXES, description="Its upper side: y of formulas")
     crease: FloatProperty(name="Sharp Edges", subtype="ANGLE", min=0, max=3.14159265, description=(
         "Edges that bend by more than this angle stay sharp; 0: the coat grows on the smooth surface that the mesh "

@@ -1,6 +1,6 @@
 # blender --factory-startup --python-exit-code 3 -P blender_window.py -- PELAGE ZIP FOLDER
-# The add-on in a Blender with a window: its panels draw, a coat grows while the window goes on, is cancelled, undone, and
-# ended with the file. Leaves FOLDER/panel.png. Needs a display, and BLENDER_USER_SCRIPTS and BLENDER_USER_CONFIG.
+# The add-on in a Blender with a window: its panels draw, a coat grows while the window goes on, is cancelled, undone,
+# and ended with the file. Leaves FOLDER/panel.png. Needs a display, and BLENDER_USER_SCRIPTS and BLENDER_USER_CONFIG.
 import os
 import sys
 import tempfile

@@ -132,7 +132,7 @@ def program():
     job.start([PELAGE, "unwrap", sphere, "-o", "shape.ply"],
               [PELAGE, "grow", "shape.ply", "--size", "0.05", "--keep-shape", "-o", "coat.ply", *quick])
     tasks = set()
-    while job.running:
+    while job.running():
         tasks.add(job.task)
         time.sleep(0.001)
     told = finished(job)
@@ -142,15 +142,19 @@ def program():
     failed("no-such", [PELAGE, "grow", sphere, "--model", "no-such", "-o", "coat.ply"])
     failed("nobody.ply", [PELAGE, "unwrap", "nobody.ply", "-o", "shape.ply"], [PELAGE, "grow", "shape.ply"])
     failed("cannot be run", [os.path.join(FOLDER, "no-program")])
-    job = process.Job()
+
+
+def cancelled():
+    """In the midst of growing."""
+    job, sphere = process.Job(), "builtin:sphere?n=642"
     job.start([PELAGE, "grow", sphere, "--size", "0.05", "--until", "1e9", "--stationary", "0", "-o",
                "coat.ply", "--json"])
     end = time.monotonic() + 120
-    while "growing" not in job.task and job.running and time.monotonic() < end:
+    while "growing" not in job.task and job.running() and time.monotonic() < end:
         time.sleep(0.01)
-    assert job.running, job.task
+    assert job.running(), job.task
     job.cancel()
-    assert not job.running and job._process.returncode != -9, "it had to be killed"
+    assert not job.running() and job._process.returncode != -9, "it had to be killed"
     try:
         finished(job)
         raise AssertionError("a cancelled run has a result")
@@ -162,7 +166,8 @@ def program():
 def words():
     """Lines of the program, as a process hears them."""
     job = process.Job()
-    for line, heard in (("pelage: growing", ("growing", 0, "")), ("pelage: growing 30 %, 5 s left", ("growing", 0.3, "5 s")),
+    for line, heard in (("pelage: growing", ("growing", 0, "")),
+                        ("pelage: growing 30 %, 5 s left", ("growing", 0.3, "5 s")),
                         ("pelage: writing a 5 %.ply", ("writing a 5 %.ply", 0, ""))):
         job.hear(line)
         assert (job.task, job.fraction, job.left) == heard, (line, job.task, job.fraction, job.left)
@@ -177,3 +182,4 @@ other_texts()
 names()
 words()
 program()
+cancelled()
