@@ -1,4 +1,4 @@
-"""The nodes that show a coat in the object's materials: known by their names, and a user may do with them as he likes."""
+"""The nodes that show a coat in the materials of an object: known by their names, and for the rest the user's."""
 from dataclasses import dataclass
 
 import bpy
