@@ -217,11 +217,13 @@ def _curve_strokes(curve) -> list:
 
 def _layer_strokes(layer) -> list:
     """What a layer of grease pencil shows now."""
-    if hasattr(layer, "current_frame"):  # from 4.3 on
-        frame, place = layer.current_frame(), layer.matrix_local
-        return [[place @ p.position for p in stroke.points] for stroke in frame.drawing.strokes] if frame else []
-    frame, place = layer.active_frame, layer.matrix_layer
-    return [[place @ p.co for p in stroke.points] for stroke in frame.strokes] if frame else []
+    now = bpy.context.scene.frame_current
+    frame = max((f for f in layer.frames if f.frame_number <= now), key=lambda f: f.frame_number, default=None)
+    if frame is None:
+        return []
+    if hasattr(frame, "drawing"):  # from 4.3 on
+        return [[layer.matrix_local @ p.position for p in stroke.points] for stroke in frame.drawing.strokes]
+    return [[layer.matrix_layer @ p.co for p in stroke.points] for stroke in frame.strokes]
 
 
 def strokes_of(obj, frame: Frame) -> list:
