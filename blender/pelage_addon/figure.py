@@ -89,6 +89,28 @@ def polygons(mesh, frame: Frame, uv) -> ply.Mesh:
     return ply.Mesh(points, sizes, corners, {}, lists)
 
 
+def _face_normals(mesh: ply.Mesh, following: np.ndarray) -> np.ndarray:
+    """Unit vectors; 0 of faces without area."""
+    first = np.cumsum(mesh.sizes) - mesh.sizes
+    places = mesh.points - mesh.points.mean(axis=0)
+    sums = np.add.reduceat(np.cross(places[mesh.corners], places[mesh.corners[following]]), first)
+    return sums / np.maximum(np.linalg.norm(sums, axis=1), 1e-300)[:, None]
+
+
+def sharpest_bend(mesh: ply.Mesh) -> float:
+    """The largest angle between two faces that share an edge, in radians."""
+    first, corner = np.cumsum(mesh.sizes) - mesh.sizes, np.arange(len(mesh.corners))
+    face = np.repeat(np.arange(len(mesh.sizes)), mesh.sizes)
+    following = np.where(corner + 1 < (first + mesh.sizes)[face], corner + 1, first[face])
+    normals = _face_normals(mesh, following)
+    edges = np.sort(np.stack([mesh.corners, mesh.corners[following]], axis=1), axis=1)
+    order = np.lexsort((edges[:, 1], edges[:, 0]))
+    shared = np.flatnonzero((edges[order[1:]] == edges[order[:-1]]).all(axis=1))
+    one, other = normals[face[order[shared]]], normals[face[order[shared + 1]]]
+    cosines = (one * other).sum(axis=1)[(np.abs(one).sum(axis=1) > 0) & (np.abs(other).sum(axis=1) > 0)]
+    return float(np.arccos(np.clip(cosines.min(initial=1), -1, 1)))
+
+
 def tiles(mesh: ply.Mesh) -> int:
     """How many images its uv lies in (UDIM); one where a face lies across the border of a tile, for then it repeats."""
     uv, first = mesh.corner_lists["texcoord"], np.cumsum(mesh.sizes) - mesh.sizes

@@ -1,4 +1,5 @@
 """A coat on an object: what is sent to the program, and what is done with its answer."""
+import math
 import os
 import shutil
 
@@ -23,7 +24,7 @@ def _truth(obj, text: str) -> str:
 
 def _change_recipe(obj, coat, frame, notes: list) -> str:
     """The coat's recipe with the object's maps, mask and strokes."""
-    settings, text = obj.pelage, coat.text
+    settings, text = obj.pelage, recipe_text.without_form(coat.text)
     if settings.size_map:
         text = recipe_text.with_size_map(text, _value(obj, settings.size_map, settings.size_at_0, settings.size_at_1))
     if settings.mask:
@@ -52,20 +53,19 @@ def _parameter_words(obj) -> list:
     return words
 
 
-def _look_words(settings) -> list:
-    degrees = settings.crease * 57.29577951308232
-    words = ["--crease", f"{degrees:.9g}"] if degrees > 0 else []
+def _look_words(settings, creases: bool) -> list:
+    words = ["--crease", f"{math.degrees(settings.crease):.9g}"] if creases else []
     return words + (["--material", f"height={settings.height}"] if settings.height else [])
 
 
-def _pattern_words(context, obj) -> list:
+def _pattern_words(context, obj, creases: bool) -> list:
     settings = obj.pelage
     words = ["--seed", str(settings.seed), "--quality", settings.quality]
     if settings.size > 0:
         words += ["--size", f"{settings.size:.9g}u"]
     if unit := figure.input_unit(context.scene):
         words += ["--input-unit", unit]
-    return words + _parameter_words(obj) + _look_words(settings)
+    return words + _parameter_words(obj) + _look_words(settings, creases)
 
 
 class Growth:
@@ -83,6 +83,9 @@ class Growth:
         settings = obj.pelage
         self.result, self.modifiers, self.displace = settings.result, settings.modifiers, settings.displace  # of now
         coat = catalogue.Coat(settings)
+        self.solid = recipe_text.is_solid(coat.text)
+        if self.solid and self.result == "IMAGES":
+            raise Failure(f"The coat {coat.name} grows in the volume, which has no images: choose another result")
         self.frame = figure.Frame(obj, settings.front, settings.up)
         text = _change_recipe(obj, coat, self.frame, self.notes)
         self.evaluated = self.modifiers != "IGNORE" and any(m.show_viewport for m in obj.modifiers)
@@ -121,6 +124,7 @@ class Growth:
             raise Failure(f"The uv \"{self.uv}\" lies in several tiles (UDIM), which the add-on does not load: move it "
                           "into one, or let pelage grow --maps write the images")
         polygons.columns, notes = figure.painted(obj, mesh, wanted)
+        self.creases = not self.solid and 0 < obj.pelage.crease < figure.sharpest_bend(polygons)
         there = {column.lower() for column in polygons.columns}
         self._require(obj, {one for one in wanted if one.lower() not in there})
         self.sent = set(polygons.columns)
@@ -142,7 +146,7 @@ class Growth:
             commands.append([program, "unwrap", "figure.ply", "-o", shape, "--resolution", str(settings.pixels)])
         form = {"VERTICES": ["--keep-shape", "-o", "coat.ply"], "MESH": ["-o", "coat.ply"],
                 "IMAGES": ["--bake", str(settings.pixels), "--maps", "coat"]}[self.result]
-        words = [*_pattern_words(context, obj), *form, "--json"]
+        words = [*_pattern_words(context, obj, self.creases), *form, "--json"]
         return [*commands, [program, "grow", shape, "--recipe", "coat.toml", *words]]
 
     def finish(self, context) -> dict:

@@ -133,10 +133,28 @@ def without_stage_key(text: str, stage: int, key: str) -> str:
         if table.name == f"stage.{key}":
             ends = [other.start for other in tables(text) if other.start > table.start]
             return text[:table.start] + text[min(ends, default=len(text)):]
-    for name, (start, _, end) in reversed(own.entries.items()):
+    return _without_entries(text, own, key)
+
+
+def _without_entries(text: str, table: Table, key: str) -> str:
+    for name, (start, _, end) in reversed(table.entries.items()):
         if name == key or name.startswith(key + "."):
             text = text[:start] + text[_next_line(text, end):]
     return text
+
+
+def without_form(text: str) -> str:
+    """Leaves out what the look says of the mesh that is written: another does that."""
+    for key in ("detail", "flat", "keep-shape"):
+        for look in [table for table in tables(text) if table.name == "look"]:
+            text = _without_entries(text, look, key)
+    return text
+
+
+def is_solid(text: str) -> bool:
+    """Whether the coat grows in the volume of the shape."""
+    return _value(text, tables(text)[0], "solid") == "true" or any(
+        stage_value(text, k, "method") == "tets" for k in range(len(stages(text))))
 
 
 def with_stage_key(text: str, stage: int, key: str, value: str) -> str:

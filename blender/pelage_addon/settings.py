@@ -1,4 +1,6 @@
 """What a user sets, kept with the object, so that a saved coat can be grown again."""
+import math
+
 import bpy
 from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty,
                        StringProperty)
@@ -87,9 +89,9 @@ class Settings(bpy.types.PropertyGroup):
     front: EnumProperty(name="Front", default="-Y", items=_AXES,
                         description="Where the figure looks: x of formulas, which recipes with haunches need")
     up: EnumProperty(name="Up", default="Z", items=_AXES, description="Its upper side: y of formulas")
-    crease: FloatProperty(name="Sharp Edges", subtype="ANGLE", min=0, max=3.14159265, description=(
-        "Edges that bend by more than this angle stay sharp; 0: the coat grows on the smooth surface that the mesh "
-        "stands for"))
+    crease: FloatProperty(name="Sharp Edges", subtype="ANGLE", min=0, max=math.pi, default=math.radians(30),
+                          description="Edges that bend by more than this angle are sharp for the coat, too; elsewhere, "
+                                      "and with 0 everywhere, it grows on the smooth surface that the mesh stands for")
     modifiers: EnumProperty(name="Modifiers", default="SHOWN", items=[
         ("SHOWN", "As Shown", "The coat grows on what the modifiers make of the mesh, and they stay as they are"),
         ("IGNORE", "Left Out", "The coat grows on the mesh without them; they then carry it on"),

@@ -207,6 +207,43 @@ def divided_cube():
     assert np.abs(attribute(obj, "pelage_b") - at_rest).max() > 0.1 * np.ptp(at_rest), "the seed changes nothing"
 
 
+def plain_cube():
+    """Eight vertices: the finer mesh beside is a cube, with sharp edges, and the size is that of its faces."""
+    clear()
+    bpy.ops.mesh.primitive_cube_add(size=2)
+    obj = active(bpy.context.object)
+    sent = figure.polygons(obj.data, figure.Frame(obj, "X", "Z"), None)
+    assert math.isclose(figure.sharpest_bend(sent), math.pi / 2)
+    grow(obj, coat="model:turing", size=0.4, result="MESH", quality="draft")
+    beside = bpy.data.objects[f"{obj.name} coat"]
+    assert np.abs(np.abs(places(beside)).max(axis=0) - 1).max() < 1e-4, "the coat is no cube"
+    near(wavelength(beside, "pelage_b"), 0.4, 0.12, "plain cube: wavelength")
+
+
+def every_recipe():
+    """All of them go through the add-on, in a few steps, in every form that they have."""
+    clear()
+    obj, start = ball(3), process.Job.start
+    process.Job.start = lambda job, *commands: start(job, *[
+        [*words, "--steps", "2"] if words[1] == "grow" else words for words in commands])
+    try:
+        obj.pelage.crease = 0
+        for key in [item[0] for item in catalogue.items() if item[0].startswith("recipe:")]:
+            grow(obj, coat=key, quality="draft", result="VERTICES", size=0.5)
+            assert results.COLOR in obj.data.attributes and len(results_of(obj)) > 0, key
+            if 'solid = true' in catalogue.catalogue().text(key):
+                refused(obj, "volume", result="IMAGES", pixels=32)
+            else:
+                grow(obj, result="IMAGES", pixels=32)
+    finally:
+        process.Job.start = start
+
+
+def results_of(obj):
+    """The species at its vertices."""
+    return [a.name for a in obj.data.attributes if a.name.startswith(results.PREFIX)]
+
+
 def undo():
     """One step takes the coat off, and one step back brings it."""
     clear()
@@ -669,8 +706,8 @@ def loose_parts():
 
 
 def main():
-    rows = (without_program, coats, parameters, divided_cube, undo, cancel, animal_with_uv, relief, without_uv, tiles,
-            modifiers_and_scale, saved_and_grown_again, shared_material, painted_weights, painted_mask,
+    rows = (without_program, coats, parameters, divided_cube, plain_cube, every_recipe, undo, cancel, animal_with_uv,
+            relief, without_uv, tiles, modifiers_and_scale, saved_and_grown_again, shared_material, painted_weights, painted_mask,
             painted_parameter, drawn_directions, bent_directions, fairing, own_files, loose_parts)
     asked = sys.argv[sys.argv.index("--") + 4:]
     for row in rows:

@@ -76,6 +76,10 @@ def recipes():
             found = recipe_text.stage_group(text, k, "parameters")
             assert {x: y if isinstance(said[x], str) else float(y) for x, y in found.items()} == said, one["name"]
         assert recipe_text.size_of(text) == before[0].get("size"), one["name"]
+        form = tomllib.loads(recipe_text.without_form(text))
+        assert recipe_text.is_solid(text) == (tomllib.loads(text).get("solid", False))
+        said = {x: y for x, y in tomllib.loads(text).get("look", {}).items() if x != "detail"}
+        assert form.get("look", {}) == said, one["name"]
         rest = lambda document: {x: y for x, y in document.items() if x != "stage"}  # noqa: E731
         assert rest(tomllib.loads(text)) == rest(tomllib.loads(changed)), one["name"]
 
