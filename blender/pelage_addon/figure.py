@@ -1,4 +1,5 @@
 """An object as the program sees it: its mesh, what is painted on it, and strokes beside it."""
+import math
 from contextlib import contextmanager
 
 import bpy
@@ -28,7 +29,10 @@ class Frame:
         place, rotation, _ = obj.matrix_world.decompose()
         world = np.array(obj.matrix_world)
         rotated = np.array(rotation.to_matrix())
-        self.from_object = turn @ rotated.T @ world[:3, :3]
+        scale = rotated.T @ world[:3, :3]
+        # Blender's matrices are floats: without their rounding a turned object has the same coat to the bit.
+        digits = 5 - math.floor(math.log10(max(np.abs(scale).max(), 1e-30)))
+        self.from_object = turn @ np.round(scale, digits)
         self.from_world = turn @ rotated.T
         self.place = np.array(place)
         self.world = np.eye(4)
