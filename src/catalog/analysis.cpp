@@ -12,12 +12,13 @@ namespace pelage {
 
 namespace {
 
-std::vector<StepLimit> largest_steps(const Model& model, double spacing, double resolution) {
+std::vector<StepLimit> largest_steps(const Model& model, const Stability& stability, double spacing,
+                                     double resolution) {
   const double k2 = largest_k2_of_coarsest_mesh(spacing, resolution);
   std::vector<StepLimit> limits;
   for (const StepperKind* stepper : stepper_kinds())
     if (!stepper->any_step && !stepper->lattice && (stepper->couples || model.coupled().empty()))
-      limits.push_back({std::string(stepper->name), largest_stable_step(model, *stepper, k2)});
+      limits.push_back({std::string(stepper->name), largest_stable_step(model, stability, *stepper, k2)});
   return limits;
 }
 
@@ -39,7 +40,7 @@ Analysis analysis_of(const Model& model) {
   if (!a.spacing) a.resolved = diffusion_length(model);
   a.spacing_stated = states_wavelength(model.source());
   a.resolution = model.source().suggestions.resolution_or_default();
-  if (a.spacing && !a.states.empty()) a.largest_steps = largest_steps(model, *a.spacing, a.resolution);
+  if (a.spacing && !a.states.empty()) a.largest_steps = largest_steps(model, a.stability, *a.spacing, a.resolution);
   return a;
 }
 

@@ -23,10 +23,66 @@ MatrixXd eliminated(const MatrixXd& a, const std::vector<Eigen::Index>& keep, co
   return a(keep, keep) - a(keep, drop) * solved(inner, right);
 }
 
+/// Expressions of the species alone, to be evaluated again and again: everything that depends on the place is at its
+/// mean.
+class PointFormulas {
+ public:
+  PointFormulas(const Graph& graph, const std::vector<NodeId>& roots) {
+    std::vector<int> slot(graph.size(), nowhere);
+    for (const NodeId id : reachable(graph, roots)) {
+      slot[static_cast<std::size_t>(id)] = static_cast<int>(steps_.size());
+      const Node& node = graph[id];
+      Step step{node.op, node.value, nowhere, {}};
+      for (std::size_t k = 0; k < step.in.size(); ++k)
+        step.in[k] = node.in[k] < 0 ? nowhere : slot[static_cast<std::size_t>(node.in[k])];
+      if (node.op == Op::symbol) take(graph.symbol_of(id), step);
+      steps_.push_back(step);
+    }
+    for (const NodeId root : roots) results_.push_back(slot[static_cast<std::size_t>(root)]);
+  }
+
+  VectorXd operator()(const VectorXd& u) const {
+    std::vector<double> value(steps_.size());
+    const auto in = [&](int slot) { return slot == nowhere ? 0.0 : value[static_cast<std::size_t>(slot)]; };
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+      const Step& s = steps_[i];
+      if (s.op == Op::constant)
+        value[i] = s.species == nowhere ? s.constant : u[s.species];
+      else
+        value[i] = apply(s.op, in(s.in[0]), in(s.in[1]), in(s.in[2]));
+    }
+    VectorXd result(std::ssize(results_));
+    for (Eigen::Index i = 0; i < result.size(); ++i) result[i] = in(results_[static_cast<std::size_t>(i)]);
+    return result;
+  }
+
+ private:
+  static constexpr int nowhere = -1;
+  struct Step {
+    Op op;
+    double constant;
+    int species;  ///< whose concentration it is, instead of the constant
+    std::array<int, 3> in;
+  };
+
+  static void take(const Symbol& symbol, Step& step) {
+    step.op = Op::constant;
+    step.constant = symbol.kind == Symbol::Kind::uniform ? 0.5 : 0.0;
+    if (symbol.kind == Symbol::Kind::species) step.species = symbol.index;
+  }
+
+  std::vector<Step> steps_;
+  std::vector<int> results_;
+};
+
 /// The equations at one point, everything that depends on the place being at its mean.
 class PointSystem {
  public:
-  explicit PointSystem(const Model& model) : equations_(model.equations()), size_(model.species_count()) {
+  explicit PointSystem(const Model& model)
+      : equations_(model.equations()),
+        size_(model.species_count()),
+        rate_(equations_.graph, equations_.rate),
+        jacobian_(equations_.graph, equations_.jacobian) {
     for (std::size_t i = 0; i < size_; ++i)
       (model.algebraic(i) ? algebraic_ : evolving_).push_back(static_cast<Eigen::Index>(i));
   }
@@ -36,11 +92,11 @@ class PointSystem {
   VectorXd complete(const VectorXd& evolving) const {
     VectorXd u = VectorXd::Zero(static_cast<Eigen::Index>(size_));
     u(evolving_) = evolving;
-    if (!algebraic_.empty()) u(algebraic_) = vector(equations_.rate, u)(algebraic_).eval();
+    if (!algebraic_.empty()) u(algebraic_) = rate_(u)(algebraic_).eval();
     return u;
   }
   /// Rates of the evolving species.
-  VectorXd rate(const VectorXd& u) const { return vector(equations_.rate, u)(evolving_); }
+  VectorXd rate(const VectorXd& u) const { return rate_(u)(evolving_); }
   VectorXd initial() const {
     const VectorXd all = vector(equations_.initial, VectorXd::Zero(static_cast<Eigen::Index>(size_)));
     return complete(all(evolving_));
@@ -48,7 +104,7 @@ class PointSystem {
   /// Of all species; the R of an algebraic one is its formula minus itself.
   MatrixXd jacobian(const VectorXd& u) const {
     const auto n = static_cast<Eigen::Index>(size_);
-    MatrixXd j = vector(equations_.jacobian, u).reshaped<Eigen::RowMajor>(n, n);
+    MatrixXd j = jacobian_(u).reshaped<Eigen::RowMajor>(n, n);
     for (const Eigen::Index a : algebraic_) j(a, a) -= 1;
     return j;
   }
@@ -74,16 +130,12 @@ class PointSystem {
 
  private:
   VectorXd vector(const std::vector<NodeId>& roots, const VectorXd& u) const {
-    const auto value_of = [&](const Symbol& symbol) {
-      if (symbol.kind == Symbol::Kind::species) return u[symbol.index];
-      return symbol.kind == Symbol::Kind::uniform ? 0.5 : 0.0;
-    };
-    const std::vector<double> values = evaluate(equations_.graph, roots, value_of);
-    return Eigen::Map<const VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+    return PointFormulas(equations_.graph, roots)(u);
   }
 
   const Equations& equations_;
   const std::size_t size_;
+  const PointFormulas rate_, jacobian_;
   std::vector<Eigen::Index> evolving_, algebraic_;
 };
 

@@ -60,7 +60,10 @@ bool stable(const Linearisation& l, const MatrixXd& flux, const StepperKind& ste
 }  // namespace
 
 double largest_stable_step(const Model& model, const StepperKind& stepper, double largest_k2) {
-  const Stability s = analyse(model);
+  return largest_stable_step(model, analyse(model), stepper, largest_k2);
+}
+
+double largest_stable_step(const Model& model, const Stability& s, const StepperKind& stepper, double largest_k2) {
   if (stepper.any_step || s.steady_states.empty()) return std::numeric_limits<double>::infinity();
   const auto n = static_cast<Eigen::Index>(model.species_count());
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
