@@ -653,6 +653,7 @@ def fairing():
     group = obj.vertex_groups.new(name="Part")
     group.add(list(range(100)), 0.5, "REPLACE")
     modifier = divide(obj, 1)
+    noise.seed_set(7)
     for vertex in obj.data.vertices:
         vertex.co += vertex.co * 0.012 * (noise.random() - 0.5)
     places_before, uv = places(obj), corner_uv(obj).copy()
