@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-ORDER = "base < linalg shape react recipe < discretise io print < time fair direction look gridgen solid measure unwrap < run < catalog < verify render studio < apps"
+ORDER = "base < linalg shape react recipe < discretise io print < time fair direction look gridgen solid measure unwrap < run < catalog < verify render studio < apps python"
 RANK = {layer: rank for rank, group in enumerate(ORDER.split("<")) for layer in group.split()}
 
 # The public headers belong to the layer that implements them.
@@ -27,7 +27,7 @@ OUTSIDE = {"tbb/": ["src/base/parallel.cpp"], "sanitizer/": ["src/base/parallel.
            "pugixml.hpp": ["src/io/vtk_document.", "src/io/record_in_file.cpp"], "stb_truetype.h": ["src/look/text.cpp"], "embree3/": ["src/render/"],
            "malloc.h": ["apps/cli/main.cpp"], "unistd.h": ["src/io/", "apps/cli/"], "fcntl.h": ["src/io/"],
            "sys/": ["src/io/temporary_file.cpp", "apps/cli/"], "spawn.h": ["apps/cli/"], "CLI/": ["apps/cli/"], "httplib.h": ["apps/cli/studio_server.cpp"], "nlohmann/": ["apps/cli/", "src/studio/", "src/io/gltf_", "src/io/record.cpp"],
-           "sha2.h": ["src/io/sha256.cpp"], "draco/": ["src/io/gltf_draco.cpp"], "meshoptimizer.h": ["src/io/gltf_meshoptimizer.cpp", "src/io/gltf_compressor.cpp"]}
+           "pybind11/": ["python/module/"], "sha2.h": ["src/io/sha256.cpp"], "draco/": ["src/io/gltf_draco.cpp"], "meshoptimizer.h": ["src/io/gltf_meshoptimizer.cpp", "src/io/gltf_compressor.cpp"]}
 
 
 def layer_of(path):
@@ -48,14 +48,16 @@ def belongs(header, file):
 
 
 def violations(root):
-    for base, pattern in ("src", "*/*"), ("include", "pelage/*"), (".", "apps/**/*"):
+    for base, pattern in ("src", "*/*"), ("include", "pelage/*"), (".", "apps/**/*"), (".", "python/**/*"):
         for file in sorted(f for f in (root / base).glob(pattern) if f.suffix in (".h", ".cpp")):
             user = layer_of(file.relative_to(root / base).as_posix())
             for number, line in enumerate(file.read_text().splitlines(), 1):
                 match = INCLUDE.match(line)
                 used = match and match[1] and layer_of(match[1])
                 place = file.relative_to(root).as_posix()
-                if used and used != user and RANK[used] >= RANK[user]:
+                if user == "python" and match and match[1] and "/" in match[1] and not match[1].startswith("pelage/"):
+                    yield f"{place}:{number}: the Python package includes public headers only, not {match[1]}"
+                elif used and used != user and RANK[used] >= RANK[user]:
                     yield f"{place}:{number}: {user} must not include {match[1]} (layer {used})"
                 if match and match[2] and not belongs(match[2], place):
                     yield f"{place}:{number}: <{match[2]}> does not belong here (see OUTSIDE in tools/check_layers.py)"

@@ -36,22 +36,6 @@ std::string stop_reason(RunStatus status) {
   return "still running";
 }
 
-std::string status_name(RunStatus status) {
-  switch (status) {
-    case RunStatus::time_reached:
-      return "time_reached";
-    case RunStatus::steps_reached:
-      return "steps_reached";
-    case RunStatus::stationary:
-      return "stationary";
-    case RunStatus::failed:
-      return "failed";
-    case RunStatus::running:
-      break;
-  }
-  return "running";
-}
-
 std::string meshing(const Method& method, int levels) {
   if (method.own_mesh) return "even triangles on the surface";
   const bool smooth = method.smooth;
@@ -260,7 +244,7 @@ void GrowReport::grown(const Run& run, std::size_t stage, const RunSummary& s) {
   line("grown", (run.program().stages.size() > 1 ? p.name + ": " : "") +
                     counted(static_cast<std::size_t>(s.steps), "step") + " of " + std::string(p.stepper->name) +
                     " to time " + number(s.time) + "; " + stop_reason(s.status));
-  json_["stages"][stage]["growth"] = {{"status", status_name(s.status)},
+  json_["stages"][stage]["growth"] = {{"status", name_of(s.status)},
                                       {"steps", s.steps},
                                       {"time", s.time},
                                       {"last_step", s.step},

@@ -14,6 +14,9 @@ enum class RunStatus {
   failed  ///< the fields blew up or a solve did not converge; see RunSummary::message
 };
 
+/// "running", "time_reached", ...: for programs.
+const char* name_of(RunStatus status);
+
 /// What has happened so far in a stage.
 struct RunSummary {
   RunStatus status = RunStatus::running;

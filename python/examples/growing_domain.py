@@ -20,6 +20,7 @@ until = float(os.environ.get("UNTIL", 300))
 growth = 0.01
 
 line = pelage.Model(f"""
+name = "growing-line"
 title = "Schnakenberg on a growing line"
 wavelength = 1
 [species.v]
@@ -53,7 +54,7 @@ pelage.save_png(np.repeat(np.repeat((rows / rows.max())[..., None], 3, 2), 8, 0)
 
 # %%
 counts = []
-for t in (0.5, 100):
-    sphere = pelage.grow("builtin:sphere?n=642", model="schnakenberg", size=0.3, growth=growth, until=max(t, 60) if t > 1 else 40)
+for t in (50, 100):
+    sphere = pelage.grow("builtin:sphere?n=642", model="schnakenberg", size=0.3, growth=growth, until=t)
     counts.append(sphere.measure()["spots"]["count"])
 print("spots on the growing sphere:", counts)

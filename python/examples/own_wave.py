@@ -23,7 +23,7 @@ until = float(os.environ.get("UNTIL", 150))
 # %%
 rate = "{0}*(1 - {0} - {1} - {2}) - 2*{0}*{1}"
 cycle = [("a", "b", "c"), ("b", "c", "a"), ("c", "a", "b")]
-text = 'title = "Three that chase each other"\nwavelength = 40\n[suggested]\nstep = 0.1\n' + "".join(
+text = 'name = "chase"\ntitle = "Three that chase each other"\nwavelength = 40\n[suggested]\nstep = 0.1\n' + "".join(
     f'[species.{s[0]}]\ndiffusion = 1\nrate = "{rate.format(*s)}"\ninitial = "0.3 + 0.1*noise(6, {i})"\nmin = 0\n'
     for i, s in enumerate(cycle))
 chase = pelage.Model(text, "chase")

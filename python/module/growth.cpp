@@ -8,22 +8,6 @@ namespace pelage::python {
 
 namespace {
 
-const char* name_of(RunStatus status) {
-  switch (status) {
-    case RunStatus::running:
-      return "running";
-    case RunStatus::time_reached:
-      return "time_reached";
-    case RunStatus::steps_reached:
-      return "steps_reached";
-    case RunStatus::stationary:
-      return "stationary";
-    case RunStatus::failed:
-      break;
-  }
-  return "failed";
-}
-
 py::dict about(const RunSummary& s) {
   py::dict all;
   all["status"] = name_of(s.status);

@@ -107,6 +107,11 @@ py::object grid_of(const ShapeFile& file) {
   return about;
 }
 
+Image image_of(const Numbers<float>& rgb) {
+  if (rgb.ndim() != 3 || rgb.shape(2) != 3) throw py::value_error("a picture is an array of shape (height, width, 3)");
+  return {static_cast<int>(rgb.shape(1)), static_cast<int>(rgb.shape(0)), {rgb.data(), rgb.data() + rgb.size()}};
+}
+
 const char* kind_of(const ShapeFile& file) {
   if (as<Grid>(file.nodes)) return "grid";
   if (as<Atlas>(file.nodes)) return "patches";
@@ -223,13 +228,8 @@ void bind_shapes(py::module_& m) {
         py::call_guard<py::gil_scoped_release>());
   m.def("readable_extensions", &readable_extensions);
   m.def("mesh_extensions", &mesh_extensions);
-  m.def("write_png", [](const Numbers<float>& rgb, const std::string& path) {
-    if (rgb.ndim() != 3 || rgb.shape(2) != 3)
-      throw py::value_error("a picture is an array of shape (height, width, 3)");
-    write_png(
-        Image{static_cast<int>(rgb.shape(1)), static_cast<int>(rgb.shape(0)), {rgb.data(), rgb.data() + rgb.size()}},
-        path);
-  });
+  m.def("write_png", [](const Numbers<float>& rgb, const std::string& path) { write_png(image_of(rgb), path); });
+  m.def("png_bytes", [](const Numbers<float>& rgb) { return py::bytes(png_bytes(image_of(rgb))); });
 }
 
 }  // namespace pelage::python

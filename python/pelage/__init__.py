@@ -5,9 +5,16 @@
     coat.save("cow.glb", bake=2048)
 """
 
+from __future__ import annotations
+
+import os
+
+import numpy as np
+from numpy.typing import ArrayLike
+
 from . import _core
 from .errors import Cancelled, Error, InputError, NumericsError, OutputError, UsageError
-from .geometry import DirectionField, Faired, direction_field, fair, grid
+from .geometry import DirectionField, Faired, direction_field, fair, grid, measure
 from .growing import Coat, Run, grow, tile
 from .matching import Match, match
 from .models import Analysis, analyse
@@ -34,15 +41,12 @@ def mesh_extensions() -> list[str]:
     return _core.mesh_extensions()
 
 
-def save_png(picture: "object", path: "object") -> None:
-    """Writes a picture (height, width, 3) in linear light as PNG, sRGB with 8 bits."""
-    import os
-
-    import numpy
-    _core.write_png(numpy.asarray(picture, dtype=numpy.float32), os.fspath(path))  # type: ignore[call-overload]
+def save_png(picture: ArrayLike, path: str | os.PathLike[str]) -> None:
+    """Writes a picture (height, width, 3) in linear light as PNG, sRGB with 8 bits a channel."""
+    _core.write_png(np.asarray(picture, dtype=np.float32), os.fspath(path))
 
 
 __all__ = ["Analysis", "Cancelled", "Changes", "Coat", "DirectionField", "Error", "Faired", "InputError", "Match",
            "Model", "NumericsError", "OutputError", "Run", "Shape", "Table", "UsageError", "analyse", "as_shape",
-           "direction_field", "fair", "grid", "grow", "load", "match", "measure_picture", "mesh_extensions",
-           "model_names", "recipe_names", "save_png", "sweep", "tile"]
+           "direction_field", "fair", "grid", "grow", "load", "match", "measure", "measure_picture",
+           "mesh_extensions", "model_names", "recipe_names", "save_png", "sweep", "tile"]

@@ -1,4 +1,4 @@
-"""Geometry without coats: fairing, direction fields, grids."""
+"""Shapes without growth: fairing, direction fields, grids, and the measures of patterns on them."""
 
 from __future__ import annotations
 
@@ -66,3 +66,9 @@ def grid(name: str) -> Shape:
     """A grid: built in ("builtin:swan", "builtin:tile?n=512"), fitted to a region of a .toml file, or a grid's file. Its
     points are nodes; `grid` tells how many along each axis."""
     return load(name)
+
+
+def measure(shape: ShapeLike, field: str = "", level: float | None = None) -> dict[str, Any]:
+    """What the pattern of a finished coat is like, in numbers, as `pelage measure` gives them (docs/measure.md); lengths
+    in world units. `field`: a number at every point, by default the first; `level`: where parts end."""
+    return _core.measure(as_shape(shape)._file, field, level)

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Callable, Optional
+from typing import TYPE_CHECKING, Any, Callable, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from .errors import NumericsError, UsageError
+from .errors import UsageError
 from .recipes import Changes, RecipeLike, planned
 from .shapes import Points, Shape, ShapeLike, Triangles, as_shape
 
-try:
-    from typing import Unpack  # type: ignore[attr-defined]
-except ImportError:  # before Python 3.11
-    from typing_extensions import Unpack  # type: ignore[assignment]
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 #: Called with what is being done and the fraction of it that is (negative: unknown), many times a second; returning
 #: False stops the work with Cancelled, and an exception stops it with that. Ctrl-C does, too, with or without one.
@@ -26,7 +24,7 @@ Progress = Callable[[str, float], Optional[bool]]
 class Coat:
     """A coat as it stood when it was taken: a finer mesh with colours and fields."""
 
-    def __init__(self, growth: Any, shape: Shape, recipe: Any):
+    def __init__(self, growth: _core.Growth, shape: Shape, recipe: _core.Recipe):
         self._growth, self._recipe = growth, recipe
         self.shape = shape
         self._mesh = growth.dress()
@@ -103,17 +101,17 @@ class Coat:
         """
         file = os.fspath(path)
         extension = os.path.splitext(file)[1]
-        form = {"name": self.shape.name, "up": self.shape.up, "compress": compress}
+        name, up = self.shape.name, self.shape.up
         if bake is not None:
             if extension.lower() != ".glb":
                 raise UsageError(f"{file}: of the formats only GLB holds an image; images() gives them as arrays")
-            self._baked(bake).save(file, **form)
+            self._baked(bake).save(file, name, up, compress)
             return []
-        mesh = self._mesh
+        mesh: _core.Mesh | _core.Polygons = self._mesh
         if self._recipe.keeps_shape and len(self.triangles):
             self._require_moment("the form of its file")
             mesh = self._growth.dress_in_file()
-        mesh.save(file, **form)
+        mesh.save(file, name, up, compress)
         return mesh.losses(extension)
 
     def images(self, size: int = 2048) -> dict[str, NDArray[Any]]:
@@ -135,7 +133,14 @@ class Coat:
         """A picture: (height, width, 3), linear light; save_png() writes it. Angles in degrees."""
         return self._mesh.render(width, height, samples, azimuth, elevation, up or self.shape.up, progress)
 
-    def _baked(self, size: int) -> Any:
+    def _repr_png_(self) -> bytes:
+        """What a notebook shows of it."""
+        grid = self.shape.grid
+        flat = grid is not None and grid["dimension"] == 2
+        picture = self.image().astype(np.float32) if flat else self.render(512, 512, samples=16)
+        return _core.png_bytes(picture)
+
+    def _baked(self, size: int) -> _core.TexturedMesh:
         self._require_moment("its images")
         return self._growth.bake(size)
 
@@ -192,7 +197,8 @@ class Run:
 
     @property
     def time(self) -> float:
-        return self._growth.summary["time"]
+        """Of the model, in the stage in progress."""
+        return float(self._growth.summary["time"])
 
     @property
     def stage(self) -> tuple[int, int, str]:
@@ -267,15 +273,12 @@ def tile(recipe: RecipeLike | None = None, *, nodes: int | tuple[int, int] = 512
     return grow(f"builtin:tile?n={columns}x{rows}", recipe, progress=progress, **changes)
 
 
-def _shape_of(recipe: Any) -> str:
+def _shape_of(recipe: _core.Recipe) -> str:
     if not recipe.shape:
         raise UsageError("no shape to grow on; name a file or a built-in one, for example builtin:animal")
     return recipe.shape
 
 
-def _moment(growth: Any) -> tuple[int, float, int]:
+def _moment(growth: _core.Growth) -> tuple[int, float, int]:
     summary = growth.summary
     return growth.stage[0], summary["time"], summary["steps"]
-
-
-__all__ = ["Coat", "Progress", "Run", "grow", "tile", "NumericsError"]

@@ -27,7 +27,7 @@ class Analysis:
     largest_steps:  stable steps of the steppers on the coarsest mesh that carries the pattern
     """
 
-    def __init__(self, analysis: Any):
+    def __init__(self, analysis: _core.Analysis):
         self._analysis = analysis
 
     def __getattr__(self, name: str) -> Any:

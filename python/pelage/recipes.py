@@ -36,7 +36,7 @@ class Model:
         `size` stretches. `end`: time after which it is finished; `step`: of the first steps."""
         if set(initial) != set(diffusion):
             raise UsageError(f"initial values of {', '.join(initial)}, but diffusion of {', '.join(diffusion)}")
-        lines = [f'title = "{name}"', f"wavelength = {float(spacing)!r}"]
+        lines = [f'name = "{name}"', f'title = "{name}"', f"wavelength = {float(spacing)!r}"]
         suggested = {"end": end, "step": step}
         for species, rate in diffusion.items():
             lines += [f"[species.{species}]", f'diffusion = "{float(rate)!r}"', 'rate = "0"',
@@ -49,7 +49,7 @@ class Model:
         return f"<pelage.Model {self.name}{', rates in Python' if self.rates else ''}>"
 
 
-RecipeLike = Union[str, "os.PathLike[str]", Model, Any]
+RecipeLike = Union[str, "os.PathLike[str]", Model]
 
 
 class Changes(TypedDict, total=False):
@@ -100,7 +100,7 @@ class Changes(TypedDict, total=False):
 class Planned:
     """A recipe with all changes, and the rates that take the place of its model's; what everything grows by."""
 
-    def __init__(self, recipe: Any, rates: Rates | None):
+    def __init__(self, recipe: _core.Recipe, rates: Rates | None):
         self.recipe, self.rates = recipe, rates
 
 
@@ -126,7 +126,7 @@ def planned(recipe: RecipeLike | None, changes: Mapping[str, Any]) -> Planned:
     return Planned(read, rates)
 
 
-def _read(recipe: Any) -> Any:
+def _read(recipe: Any) -> _core.Recipe:
     if recipe is None:
         return _core.Recipe()
     if isinstance(recipe, _core.Recipe):
@@ -135,7 +135,7 @@ def _read(recipe: Any) -> Any:
     return _core.parse_recipe(text, "recipe") if "\n" in text else _core.load_recipe(text)
 
 
-def _as_options(changes: Mapping[str, Any]) -> Any:
+def _as_options(changes: Mapping[str, Any]) -> _core.RecipeChanges:
     """As the command line has them."""
     options = _core.RecipeChanges()
     for name, value in changes.items():

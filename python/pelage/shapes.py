@@ -43,7 +43,7 @@ class Shape:
         self.name = name
 
     @classmethod
-    def _of(cls, file: Any, name: str) -> "Shape":
+    def _of(cls, file: _core.ShapeFile, name: str) -> "Shape":
         shape = cls.__new__(cls)
         shape._file, shape.name = file, file.name or name
         return shape
@@ -128,25 +128,26 @@ def as_shape(shape: ShapeLike) -> Shape:
         return load(shape)
     if isinstance(shape, (tuple, list)) and len(shape) == 2:
         return Shape(shape[0], shape[1])
-    if hasattr(shape, "vertices") and hasattr(shape, "faces"):
-        return Shape(shape.vertices, shape.faces)
-    if hasattr(shape, "points") and hasattr(shape, "cells_dict"):
-        return Shape(shape.points, _faces_of_cells(shape.cells_dict))
-    if hasattr(shape, "points") and hasattr(shape, "faces"):
-        return Shape(shape.points, _faces_of_counts(np.asarray(shape.faces)))
+    other: Any = shape
+    if hasattr(other, "vertices") and hasattr(other, "faces"):
+        return Shape(other.vertices, other.faces)
+    if hasattr(other, "points") and hasattr(other, "cells_dict"):
+        return Shape(other.points, _faces_of_cells(other.cells_dict))
+    if hasattr(other, "points") and hasattr(other, "faces"):
+        return Shape(other.points, _faces_of_counts(np.asarray(other.faces)))
     raise UsageError(f"a {type(shape).__name__} is no shape: give a path, a pair of arrays (points, faces), or an "
                      "object with points and faces")
 
 
-def _polygons(points: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]] | None) -> Any:
-    points = np.asarray(points, dtype=float)
+def _polygons(points: ArrayLike, faces: Any) -> _core.Polygons:
+    rows = np.asarray(points, dtype=float)
     if faces is None:
-        return _core.Polygons(points, np.zeros((0, 3), np.int32))
+        return _core.Polygons(rows, np.zeros((0, 3), np.int32))
     if _is_ragged(faces):
-        sizes = [len(face) for face in faces]  # type: ignore[union-attr]
-        corners = np.fromiter((v for face in faces for v in face), np.int64, sum(sizes))  # type: ignore[union-attr]
-        return _core.Polygons(points, _indices(corners), np.asarray(sizes, np.int64))
-    return _core.Polygons(points, _indices(np.asarray(faces)))
+        sizes = [len(face) for face in faces]
+        corners = np.fromiter((v for face in faces for v in face), np.int64, sum(sizes))
+        return _core.Polygons(rows, _indices(corners), np.asarray(sizes, np.int64))
+    return _core.Polygons(rows, _indices(np.asarray(faces)))
 
 
 def _indices(numbers: NDArray[Any]) -> NDArray[np.int32]:

@@ -13,6 +13,7 @@
 #include "look/kept_shape.h"
 #include "pelage/grow.h"
 #include "run/run.h"
+#include "shape/triangulate.h"
 
 namespace pelage {
 
@@ -138,7 +139,10 @@ TriangleMesh Growth::dress() const { return dress(parts_->look); }
 TriangleMesh Growth::dress(const Look& look) const {
   const CoatFields fields = parts_->run.fields();
   const Paint paint = resolve_paint(look, fields.species);
-  return pelage::dress(parts_->tessellation(fields, look, paint), paint, fields.uniform);
+  TriangleMesh coat = pelage::dress(parts_->tessellation(fields, look, paint), paint, fields.uniform);
+  if (!look.keep_shape || fields.shape->triangles.empty()) return coat;
+  std::vector<Finding> none;
+  return triangulate(kept_shape(own_form(*fields.shape), coat, paint), none).mesh;
 }
 
 Grid Growth::dress_grid() const {
@@ -161,8 +165,9 @@ PolygonMesh Growth::dress_in_file() const {
   Look look = parts_->look;
   look.keep_shape = true;
   const CoatFields fields = parts_->run.fields();
-  const SourceShape& form = parts_->file.source ? *parts_->file.source : own_form(*fields.shape);
-  return kept_shape(form, dress(look), resolve_paint(look, fields.species));
+  const Paint paint = resolve_paint(look, fields.species);
+  const TriangleMesh coat = pelage::dress(parts_->tessellation(fields, look, paint), paint, fields.uniform);
+  return kept_shape(parts_->file.source ? *parts_->file.source : own_form(*fields.shape), coat, paint);
 }
 
 TexturedMesh Growth::bake(int size) const {

@@ -354,7 +354,9 @@ void require_sound(const PolygonMesh& mesh, const std::string& name) {
 ShapeFile check_shape(PolygonMesh mesh, const std::string& name) {
   require_sound(mesh, name);
   const std::optional<double> metres = mesh.metres_per_unit;
-  return mended(RawShape{std::move(mesh), {}, {}, {}, UpAxis::y, {}, metres}, name);
+  RawShape raw{std::move(mesh), {}, {}, {}, UpAxis::y, {}, metres};
+  if (raw.mesh.face_ends.empty() && raw.mesh.points.size() >= fewest_of_cloud) return cloud(std::move(raw));
+  return mended(std::move(raw), name);
 }
 
 TriangleMesh load_shape(const std::string& path) { return read_shape(path).mesh; }

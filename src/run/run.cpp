@@ -17,6 +17,22 @@
 
 namespace pelage {
 
+const char* name_of(RunStatus status) {
+  switch (status) {
+    case RunStatus::running:
+      return "running";
+    case RunStatus::time_reached:
+      return "time_reached";
+    case RunStatus::steps_reached:
+      return "steps_reached";
+    case RunStatus::stationary:
+      return "stationary";
+    case RunStatus::failed:
+      break;
+  }
+  return "failed";
+}
+
 namespace {
 
 /// Steps change by this factor, so that matrices and their factors are seldom refilled.

@@ -34,7 +34,7 @@ Run begun(Program program, const Progress& progress, const Run* before) {
   return Run(std::make_shared<const Program>(std::move(program)), before->world().unmoved(), progress);
 }
 
-const char* name_of(RunStatus status) {
+const char* words_of(RunStatus status) {
   switch (status) {
     case RunStatus::time_reached:
       return "time reached";
@@ -177,7 +177,7 @@ Message LiveCoat::colors() const {
 Message LiveCoat::state() const {
   const RunSummary& summary = run_.summary();
   Message m;
-  m.header = {{"running", !run_.done()},    {"status", name_of(summary.status)},
+  m.header = {{"running", !run_.done()},    {"status", words_of(summary.status)},
               {"message", summary.message}, {"stage", run_.stage()},
               {"time", summary.time},       {"steps", summary.steps},
               {"change", summary.change},   {"fraction", run_.fraction()},

@@ -286,7 +286,7 @@ run("the parameter map is clicked into and walked by keys; the coat goes on grow
 run("twenty new starts and four meshes leave nothing behind", async () => {
   const { tab, faults, close } = await h.openTab(browser, engine.link);
   await h.waitForSteps(tab, 1);
-  await growText(tab, `${quick.replace("quick", "endless")}until = 1000000\n`, "endless"); // at rest there is a finer mesh, too
+  await growText(tab, `${quick.replace("quick", "endless")}until = 1000000\n`, "endless");
   const held = async () => {
     await wait(300);
     await idle(tab);
@@ -302,15 +302,20 @@ run("twenty new starts and four meshes leave nothing behind", async () => {
   await tab.focus(".stage > canvas");
   for (let i = 0; i < 3; ++i) await anew();  // what was shown before them has gone by then
   const before = await held();
+  /** What one start or mesh left behind would be there twenty times, or four; a finer picture is one geometry more. */
+  const nothingLeft = async (what) => {
+    const now = await held();
+    for (const kind of Object.keys(before)) assert.ok(now[kind] <= before[kind] + 1, `${what}: ${now[kind]} ${kind}, ${before[kind]} before`);
+  };
   for (let i = 0; i < 20; ++i) await anew();
-  assert.deepEqual(await held(), before);
+  await nothingLeft("after new starts");
   await h.openPanel(tab, "shape");
   for (const shape of ["sphere", "torus", "sphere", "animal"]) {
     await tab.click(`[data-shape="builtin:${shape}"]`);
     await tab.waitForFunction((name) => document.querySelector(".what").textContent.includes(`on ${name}`), {}, shape);
     await held();
   }
-  assert.deepEqual(await held(), before);
+  await nothingLeft("after other meshes");
   assert.deepEqual(faults, []);
   await close();
 });
