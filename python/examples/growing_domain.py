@@ -17,6 +17,7 @@ import pelage
 out = Path(sys.argv[1] if len(sys.argv) == 2 else "out")
 out.mkdir(parents=True, exist_ok=True)
 until = float(os.environ.get("UNTIL", 300))
+nodes = int(os.environ.get("NODES", 801))
 growth = 0.01
 
 line = pelage.Model(f"""
@@ -34,7 +35,7 @@ initial = "1 + 0.1*cos(pi*x)"
 """, "growing-line")
 
 # %%
-run = pelage.Run("builtin:line?n=801", model=line, unit="1u", until=until, step=0.01)
+run = pelage.Run(f"builtin:line?n={nodes}", model=line, unit="1u", until=until)
 rows, times, peaks = [], [], []
 for moment in np.arange(10, until + 1, 10):
     while not run.done and run.time < moment:

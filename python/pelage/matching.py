@@ -11,6 +11,7 @@ from typing import Any, Callable, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import _core
 from .errors import Cancelled, Error, NumericsError, UsageError
 from .growing import Coat, Run, grow, tile
 from .models import Analysis, analyse
@@ -37,6 +38,8 @@ _SPREAD, _ROUNDS = 0.4, 4
 _FINALISTS = 4
 #: Fewer trials than these within all tolerances say nothing of the uncertainty: then the nearest ones do.
 _FEWEST = 12
+#: So many tolerances nearer an inverted pattern has to be.
+_PREFERENCE = 0.1
 #: Range of parameters without bounds and variants: value / this to value * this.
 _FACTOR = 1.5
 #: From this standard deviation on, in those of the bounds, a combination of parameters is not determined.
@@ -111,10 +114,9 @@ class Match:
     def recipe(self) -> str:
         """The text of a recipe with the colours of the target (docs/recipes.md). A Model's text is within; rates in
         Python are not."""
-        own = isinstance(self.model, Model)
-        name = self.model.name if own else self.model
+        name = self.model.name if isinstance(self.model, Model) else self.model
         lines = ['name = "match"', f'summary = "Matched with {name}"']
-        if own:
+        if isinstance(self.model, Model):
             lines += ["[models]", f"{name} = '''", self.model.text.rstrip("\n"), "'''"]
         lines += ["[stage]", f'model = "{name}"']
         if self.size is not None:
@@ -163,13 +165,13 @@ class Match:
 
 def match(target: Target, model: Union[str, Model], bounds: Mapping[str, tuple[float, float]] | None = None, *,
           pixel: float = 1, periodic: bool = False, tolerances: Mapping[str, float] | None = None,
-          invert: bool | None = None, runs: int = 160, seeds: int = 6, seed: int = 1, threads: int = 1,
+          invert: bool | None = None, runs: int = 120, seeds: int = 5, seed: int = 1, threads: int = 1,
           progress: Callable[[int, int], Optional[bool]] | None = None) -> Match:
     """Parameters of `model` whose coats have the measures of `target`, and how well they are known.
 
     target:      a picture, (h, w) or (h, w, 3), whose bright parts are the pattern; a Coat; or measures by name:
-                 "wavelength" [your unit], "coverage", "kind", "euler", "coherence", "bandwidth", "orientation" [degrees]
-                 (measure_picture says what they are)
+                 "wavelength" [your unit], "coverage", "kind", "euler", "coherence", "bandwidth", "orientation"
+                 [degrees] (measure_picture says what they are)
     bounds:      {"F": (0.02, 0.06), ...}; default: the parameters in which the model's variants differ, as far as these
                  go; of a model without variants all that its equations know, within a factor of 1.5
     pixel:       length of a pixel of the picture [your unit];  periodic: the picture repeats without a seam
@@ -209,16 +211,17 @@ class _Wanted:
             return 0 if value == wanted else 1 / tolerance
         if name == "wavelength":
             return math.log(value / wanted) / tolerance
-        if name == "orientation":
-            return ((value - wanted + 90) % 180 - 90) / tolerance
-        return (value - wanted) / tolerance
+        apart = float(value) - float(wanted)
+        return (apart if name != "orientation" else (apart + 90) % 180 - 90) / tolerance
 
 
 def _wanted_of(target: Target, pixel: float, periodic: bool, tolerances: Mapping[str, float]) -> _Wanted:
     unknown = set(tolerances) - set(TOLERANCES)
     if unknown:
         raise UsageError(f"no measure {sorted(unknown)[0]!r}; there are {', '.join(TOLERANCES)}")
-    colors, notes, across = ("#1d1713", "#e9dcc3"), [], None
+    colors = ("#1d1713", "#e9dcc3")
+    notes: list[str] = []
+    across: Optional[float] = None
     if isinstance(target, Mapping):
         found = dict(target)
         periodic = True
@@ -263,15 +266,15 @@ def _measures_of_coat(coat: Coat) -> tuple[dict[str, Any], Optional[float], bool
     euler = (m["above"]["parts"] - m["below"]["parts"]) * wavelength**2 / m["area"]
     k, share = m["spectrum"]["wave_number"], m["spectrum"]["share"]
     lower, upper = np.interp((0.25, 0.75), np.cumsum(share) - share / 2, np.log(k))
-    found = {"wavelength": wavelength, "bandwidth": float(upper - lower), "coverage": m["above"]["share"], "euler": euler,
-             "coherence": m["coherence"], "order": 0.0, "kind": kind_of(euler, m["coherence"])}
+    found = {"wavelength": wavelength, "bandwidth": float(upper - lower), "coverage": m["above"]["share"],
+             "euler": euler, "coherence": m["coherence"], "order": 0.0, "kind": kind_of(euler, m["coherence"])}
     return found, math.sqrt(m["area"]) / wavelength, True
 
 
 def _sheet(coat: Coat) -> Numbers:
     """The last species as a picture, row 0 on top."""
     columns, rows = coat.shape.grid["count"][:2]  # type: ignore[index]
-    return list(coat.fields.values())[-1].reshape(rows, columns)[::-1]
+    return np.asarray(list(coat.fields.values())[-1].reshape(rows, columns)[::-1])
 
 
 def _spacing(coat: Coat) -> float:
@@ -284,7 +287,7 @@ def _colors_of(picture: ArrayLike, values: Numbers) -> tuple[str, str]:
     scale = 255.0 if np.issubdtype(colors.dtype, np.integer) else 1.0
     linear = scale == 1.0
     if colors.ndim == 2:
-        shades = (values - values.min()) / max(np.ptp(values), 1e-300)
+        shades = (values - values.min()) / max(float(np.ptp(values)), 1e-300)
         colors, linear = np.repeat(shades[..., None], 3, 2), False
     else:
         colors = np.clip(np.repeat(colors, 3, 2) if colors.shape[2] == 1 else colors[..., :3], 0, None) / scale
@@ -312,8 +315,9 @@ class _Trial:
 
 
 class _Search:
-    """Rounds of approximate Bayesian computation: proposals of a round surround the nearest trials so far, and all trials
-    are weighted by one over the density that all rounds together had there (Cornuet, Marin, Mira, Robert 2012)."""
+    """Rounds of approximate Bayesian computation: proposals of a round surround the trials that do best so far, and all
+    trials are weighted by one over the density that all rounds together had there (Cornuet, Marin, Mira, Robert 2012).
+    """
 
     def __init__(self, model: Union[str, Model], bounds: Mapping[str, tuple[float, float]] | None, wanted: _Wanted,
                  invert: bool | None, runs: int, seed: int, threads: int, progress: Any):
@@ -381,7 +385,8 @@ class _Search:
             raise NumericsError(f"no pattern in {self.done} runs within the bounds ({self.skipped} skipped)")
 
     def _cube(self, values: Mapping[str, float]) -> Numbers:
-        return np.clip((np.array([values[n] for n in self.names]) - self.low) / (self.high - self.low), 0, 1)
+        places = (np.array([values[n] for n in self.names]) - self.low) / (self.high - self.low)
+        return np.asarray(places.clip(0, 1))
 
     def _spread(self, count: int) -> list[Numbers]:
         """Points that fill the bounds evenly: the additive sequence of Roberts (2018)."""
@@ -426,7 +431,7 @@ class _Search:
         def density(x: Numbers) -> Numbers:
             d = x[:, None, :] - places
             powers = np.exp(-np.einsum("ijk,kl,ijl->ij", d, inverse, d) / 2) @ weights
-            return powers / math.sqrt(np.linalg.det(2 * math.pi * covariance))
+            return np.asarray(powers / math.sqrt(np.linalg.det(2 * math.pi * covariance)))
 
         return points, density
 
@@ -437,7 +442,7 @@ class _Search:
             inside = sorted(self.trials, key=lambda t: t.distance)[:least]
         places = np.array([t.at for t in inside])
         total = sum(n for n, _ in self.densities)
-        weights = 1 / sum(n / total * density(places) for n, density in self.densities)
+        weights = 1 / np.sum([n / total * density(places) for n, density in self.densities], axis=0)
         return weights / weights.sum(), places
 
     def _round(self, points: Sequence[Numbers], density: Callable[[Numbers], Numbers]) -> None:
@@ -447,8 +452,8 @@ class _Search:
                 self.trials.append(self._trial(at, measured))
 
     def _trial(self, at: Numbers, measured: dict[str, Any]) -> _Trial:
-        best = min(((self._distance(_inverted(measured, i)), i) for i in self.inversions), key=lambda pair: pair[0])
-        return _Trial(at, _inverted(measured, best[1]), best[1], best[0])
+        inverted = min(self.inversions, key=lambda i: self._distance(_inverted(measured, i)) + _PREFERENCE * i)
+        return _Trial(at, _inverted(measured, inverted), inverted, self._distance(_inverted(measured, inverted)))
 
     def _distance(self, measured: Mapping[str, Any]) -> float:
         return float(np.sqrt((self.wanted.misses(measured, self.searched)**2).mean()))
@@ -512,10 +517,11 @@ class _Search:
         supporting = float(1 / (weights**2).sum())
         if supporting < 10:
             notes.append(f"the uncertainty rests on some {supporting:.0f} runs: take more runs")
-        interval = {name: tuple(float(low[i] + (high[i] - low[i]) * q)
-                                for q in _quantiles(places[:, i], weights, (0.05, 0.95)))
-                    for i, name in enumerate(self.names)}
-        middle = sorted(measured, key=lambda m: m["level"])[len(measured) // 2]
+        interval = {}
+        for i, name in enumerate(self.names):
+            ends = low[i] + (high[i] - low[i]) * _quantiles(places[:, i], weights, (0.05, 0.95))
+            interval[name] = (float(ends[0]), float(ends[1]))
+        middle = sorted(measured, key=lambda m: float(m["level"]))[len(measured) // 2]
         return Match(self.model, self.values_at(best), size, inverted, self._reached(measured), dict(self.bounds),
                      interval, self._combinations(weights, places), supporting, self.done, self.skipped,
                      self.failed, notes, middle["species"], middle["level"], 0.08 * middle["range"], self.wanted.colors,
@@ -531,7 +537,8 @@ class _Search:
             for inverted in self.inversions if measured else ():
                 mean = _mean([_inverted(m, inverted) for m in measured])
                 lost = seeds - len(measured)
-                options.append((self._distance(mean) + lost, inverted, i, float(mean["wavelength"])))
+                options.append((self._distance(mean) + lost + _PREFERENCE * inverted, inverted, i,
+                                float(mean["wavelength"])))
         if not options:
             raise NumericsError("what was found does not grow again with other seeds")
         _, inverted, i, ratio = min(options)
@@ -562,7 +569,7 @@ class _Search:
 
 def _covariance(weights: Numbers, places: Numbers) -> Numbers:
     d = places - weights @ places
-    return (d.T * weights) @ d
+    return np.asarray((d.T * weights) @ d)
 
 
 def _checked(bounds: Mapping[str, tuple[float, float]], analysis: Analysis) -> dict[str, tuple[float, float]]:
@@ -575,7 +582,6 @@ def _checked(bounds: Mapping[str, tuple[float, float]], analysis: Analysis) -> d
 
 
 def _variants_of(model: Union[str, Model]) -> list[str]:
-    from . import _core
     if isinstance(model, Model):
         return []
     base = model.split(":")[0]  # figures of papers are literal in their lengths, and no kinds of their own
@@ -615,4 +621,4 @@ def _mean(measured: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 
 def _quantiles(values: Numbers, weights: Numbers, wanted: Sequence[float]) -> Numbers:
     order = np.argsort(values)
-    return np.interp(wanted, np.cumsum(weights[order]) - weights[order] / 2, values[order])
+    return np.asarray(np.interp(wanted, np.cumsum(weights[order]) - weights[order] / 2, values[order]))

@@ -27,7 +27,7 @@ def grey(picture: ArrayLike) -> Picture:
         axis = np.linalg.eigh(np.cov(colors, rowvar=False).reshape(colors.shape[1], -1))[1][:, -1]
         values = ((colors - colors.mean(0)) @ (axis if axis.sum() >= 0 else -axis)).reshape(values.shape[:2])
     if values.ndim != 2 or min(values.shape) < 8:
-        raise UsageError(f"a picture is an array of shape (h, w) or (h, w, 3), at least 8 x 8, and this is {values.shape}")
+        raise UsageError(f"a picture has the shape (h, w) or (h, w, 3), at least 8 x 8; this one has {values.shape}")
     if not np.isfinite(values).all():
         raise UsageError("the picture has values that are not finite")
     return values
@@ -43,8 +43,8 @@ def measure_picture(picture: ArrayLike, *, pixel: float = 1, periodic: bool = Fa
     wavelength:   2 pi / k at the peak of the variance per ln k [your unit]
     bandwidth:    ln k between which the middle half of the variance lies
     coverage:     share of what is above the level halfway between the lowest and highest half percent
-    euler:        parts less holes of what is above, per squared wavelength: 0.87 for a triangular lattice of spots, -0.87
-                  for one of holes, about 0 for stripes
+    euler:        parts less holes of what is above, per squared wavelength: 0.87 for a triangular lattice of spots,
+                  -0.87 for one of holes, about 0 for stripes
     coherence:    (a - b) / (a + b) with the mean square slopes a across and b along, in means over half a wavelength
     order:        the same in means over all of the picture
     orientation:  degrees of the stripes from the x axis (to the right), counter-clockwise, from 0 to 180
@@ -86,18 +86,23 @@ def _spectrum(u: Picture, periodic: bool) -> tuple[float, float]:
         u = window * (u - (window * u).sum() / window.sum())
         longest *= 1.5  # the window is a wave itself
     power = np.abs(np.fft.fft2(u))**2
-    k = 2 * math.pi * np.hypot(np.fft.fftfreq(rows)[:, None], np.fft.fftfreq(columns))
+    k = np.hypot(_waves(rows)[:, None], _waves(columns))
     inside = k >= 0.999 * longest
-    step = _SMOOTHING / 10
+    step = _SMOOTHING / 40
     low, high = math.log(0.7 * longest), math.log(1.1 * k.max())
     shares, edges = np.histogram(np.log(k[inside]), np.arange(low, high + step, step), weights=power[inside])
     at = (edges[1:] + edges[:-1]) / 2
-    density = np.convolve(shares, np.exp(-(np.arange(-40, 41) / 10)**2 / 2), "same")
+    density = np.convolve(shares, np.exp(-(np.arange(-160, 161) / 40)**2 / 2), "same")
     top = int(density.argmax())
     peak = at[top] + step * _vertex(density[max(top - 1, 0):top + 2])
     below = np.cumsum(shares) / shares.sum()
     lower, upper = np.interp((0.25, 0.75), below, edges[1:])
     return math.exp(peak), float(upper - lower)
+
+
+def _waves(count: int) -> Picture:
+    """Wave numbers in the order of numpy.fft.fft [1/pixel]."""
+    return 2 * math.pi * np.asarray((np.arange(count) + count // 2) % count - count // 2, dtype=float) / count
 
 
 def _vertex(three: Picture) -> float:
@@ -108,15 +113,15 @@ def _vertex(three: Picture) -> float:
 
 
 def _hann(count: int) -> Picture:
-    return np.sin(math.pi * (np.arange(count) + 0.5) / count)**2
+    return np.asarray(np.sin(math.pi * (np.arange(count) + 0.5) / count)**2)
 
 
 def _blurred(u: Picture, sigma: float, periodic: bool) -> Picture:
     """By a Gaussian; where the picture does not repeat, it is mirrored at its sides."""
     r = 0 if periodic else min(math.ceil(4 * sigma), *u.shape)
     wide = u if periodic else np.pad(u, r, mode="symmetric")
-    k2 = (np.fft.fftfreq(wide.shape[0])[:, None]**2 + np.fft.rfftfreq(wide.shape[1])**2) * (2 * math.pi)**2
-    wide = np.fft.irfft2(np.fft.rfft2(wide) * np.exp(-k2 * sigma**2 / 2), wide.shape)
+    k2 = _waves(wide.shape[0])[:, None]**2 + _waves(wide.shape[1])**2
+    wide = np.fft.ifft2(np.fft.fft2(wide) * np.exp(-k2 * sigma**2 / 2)).real
     return wide[r:r + u.shape[0], r:r + u.shape[1]]
 
 
@@ -134,6 +139,5 @@ def _euler_density(above: NDArray[np.bool_], periodic: bool) -> float:
     """Parts less holes per pixel, from blocks of 2 x 2: one pixel of them is a quarter of a turn, three are one back.
     Pixels that touch at a corner only are of one part for one half."""
     a = np.pad(above, ((0, 1), (0, 1)), mode="wrap") if periodic else above
-    quads = a[:-1, :-1], a[:-1, 1:], a[1:, :-1], a[1:, 1:]
-    count = sum(q.astype(int) for q in quads)
+    count = a[:-1, :-1].astype(int) + a[:-1, 1:] + a[1:, :-1] + a[1:, 1:]
     return float(((count == 1).sum() - (count == 3).sum()) / 4 / count.size)

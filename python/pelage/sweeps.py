@@ -58,7 +58,7 @@ class Table(Sequence[Mapping[str, Any]]):
 
     def to_pandas(self) -> Any:
         """As a DataFrame; needs pandas."""
-        import pandas
+        import pandas  # type: ignore[import]
         return pandas.DataFrame({name: self.column(name) for name in self.names})
 
     def save_csv(self, path: str | os.PathLike[str]) -> None:
@@ -109,8 +109,8 @@ def sweep(shape: ShapeLike, recipe: RecipeLike | None = None, *,
 
 def run_all(run: Callable[[Any], Any], points: Sequence[Any], threads: int, stop: threading.Event,
             progress: SweepProgress | None = None) -> list[Any]:
-    """run(point) for all of them, results in their order. `stop` is set when one throws, or on Ctrl-C: what runs then is
-    to end soon, and what waits does not begin."""
+    """run(point) for all of them, results in their order. `stop` is set when one throws, or on Ctrl-C: what runs then
+    is to end soon, and what waits does not begin."""
     if threads < 1:
         raise UsageError(f"threads is {threads}; at least one run at a time")
     with ThreadPoolExecutor(threads) as pool:
