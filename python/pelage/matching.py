@@ -18,7 +18,7 @@ from .models import Analysis, analyse
 from .planar import grey, kind_of, measure_picture
 from .recipes import Model
 from .shapes import ShapeLike
-from .sweeps import run_all
+from .sweeps import cores, run_all
 
 Numbers = NDArray[np.float64]
 #: A flat picture, a coat, or measures by name.
@@ -29,7 +29,7 @@ TOLERANCES = {"wavelength": 0.05, "coverage": 0.05, "euler": 0.15, "coherence": 
               "orientation": 10.0, "kind": 0.5}
 
 #: Nodes to a wavelength and wavelengths across the tiles that are grown.
-_RESOLUTION, _LEAST_ACROSS, _MOST_ACROSS = 10, 6, 12
+_RESOLUTION, _LEAST_ACROSS, _USUAL_ACROSS, _MOST_ACROSS = 10, 6, 8, 10
 #: From this order on a picture has an orientation.
 _ORDERED = 0.5
 #: Runs of the search are shared out: this part over all of the bounds, the rest in rounds nearer and nearer.
@@ -79,7 +79,9 @@ class Match:
     combinations:   of parameters, each scaled to its bounds: (weights by name, standard deviation in those of the
                     bounds); near 1 the combination is not determined at all, near 0 it is
     supporting:     of how many runs the uncertainty is made (the effective number)
-    runs:           coats grown;  skipped: parameters at which nothing grows by linear theory; failed: and why
+    runs:           coats grown
+    skipped:        places at which nothing grows by linear theory
+    failed:         runs by what became of them ("no pattern", ...)
     """
 
     model: Union[str, Model]
@@ -120,8 +122,8 @@ class Match:
             lines += ["[models]", f"{name} = '''", self.model.text.rstrip("\n"), "'''"]
         lines += ["[stage]", f'model = "{name}"']
         if self.size is not None:
-            lines.append(f'size = "{self.size:.6g}u"')
-        values = ", ".join(f"{key} = {value:.9g}" for key, value in self.parameters.items())
+            lines.append(f'size = "{self.size:.9g}u"')
+        values = ", ".join(f"{key} = {value!r}" for key, value in self.parameters.items())
         lines.append(f"parameters = {{ {values} }}")
         low, high = self.level - self.softness, self.level + self.softness
         ends = (high, low) if self.invert else (low, high)
@@ -159,17 +161,18 @@ class Match:
             lines.append(f"  {terms}: {'not determined' if deviation > _LOOSE else 'determined'}, "
                          f"{deviation:.2f} of the deviation of the bounds")
         lines.append(f"  {self.runs} runs, {self.skipped} skipped, "
-                     + (", ".join(f"{n} failed: {why}" for why, n in self.failed.items()) or "none failed"))
+                     + (", ".join(f"{n} failed ({why})" for why, n in self.failed.items()) or "none failed"))
         return "\n".join(lines + [f"  {note}" for note in self.notes])
 
 
 def match(target: Target, model: Union[str, Model], bounds: Mapping[str, tuple[float, float]] | None = None, *,
           pixel: float = 1, periodic: bool = False, tolerances: Mapping[str, float] | None = None,
-          invert: bool | None = None, runs: int = 120, seeds: int = 5, seed: int = 1, threads: int = 1,
+          invert: bool | None = None, runs: int = 120, seeds: int = 5, seed: int = 1, threads: int | None = None,
           progress: Callable[[int, int], Optional[bool]] | None = None) -> Match:
     """Parameters of `model` whose coats have the measures of `target`, and how well they are known.
 
-    target:      a picture, (h, w) or (h, w, 3), whose bright parts are the pattern; a Coat; or measures by name:
+    target:      a picture, (h, w), or (h, w, 3) in linear light or sRGB bytes, whose bright parts are the pattern; a
+                 Coat; or measures by name:
                  "wavelength" [your unit], "coverage", "kind", "euler", "coherence", "bandwidth", "orientation"
                  [degrees] (measure_picture says what they are)
     bounds:      {"F": (0.02, 0.06), ...}; default: the parameters in which the model's variants differ, as far as these
@@ -178,13 +181,13 @@ def match(target: Target, model: Union[str, Model], bounds: Mapping[str, tuple[f
     tolerances:  within which measures count as met, see TOLERANCES; math.inf: does not count
     invert:      whether what is low is the pattern; default: whichever suits
     runs:        coats that the search may grow;  seeds: of the finalists; `seed` begins the numbers of all starts
-    threads:     so many runs at a time
+    threads:     so many runs at a time; default: one for each core
     progress:    called with the runs that are done and all of them; returning False stops the work
 
     The same arguments give the same result. See docs/python-match.md for the method and its limits.
     """
     wanted = _wanted_of(target, pixel, periodic, tolerances or {})
-    search = _Search(model, bounds, wanted, invert, runs, seed, threads, progress)
+    search = _Search(model, bounds, wanted, invert, runs, seed, threads or cores(), progress)
     search.run(runs, seeds)
     return search.result(seeds)
 
@@ -230,7 +233,8 @@ def _wanted_of(target: Target, pixel: float, periodic: bool, tolerances: Mapping
     else:
         values = grey(target)
         found = measure_picture(values, pixel=pixel, periodic=periodic)
-        across, colors = found.get("across"), _colors_of(target, values)
+        if found["kind"] != "uniform":
+            across, colors = found["across"], _colors_of(target, values)
     if found.get("kind") == "uniform":
         raise UsageError("the target is uniform: it has no pattern to match")
     if not isinstance(target, Mapping):
@@ -333,7 +337,7 @@ class _Search:
         self.grows_from_rest = self.analysis.regime in ("quiet", "no_state", "departure")
         self.inversions = (False, True) if invert is None else (invert,)
         self.searched = [name for name in wanted.measures if name != "wavelength"]
-        across = min(max(round(wanted.across or _LEAST_ACROSS + 4), _LEAST_ACROSS), _MOST_ACROSS)
+        across = min(max(round(wanted.across or _USUAL_ACROSS), _LEAST_ACROSS), _MOST_ACROSS)
         self.nodes = across * _RESOLUTION
         self.random = np.random.default_rng(seed)
         self.next_seed = seed
@@ -396,7 +400,7 @@ class _Search:
             root = (1 + root)**(1 / (d + 1))
         steps = root**-np.arange(1, d + 1)
         points: list[Numbers] = []
-        for i in range(1, 60 * count):
+        for i in range(1, max(10 * count, 40)):
             at = (0.5 + i * steps) % 1
             if self.admissible(at):
                 points.append(at)
@@ -420,9 +424,6 @@ class _Search:
             centre = places[self.random.choice(len(places), p=weights)]
             at = centre + root @ self.random.standard_normal(len(self.names))
             if ((at < 0) | (at > 1)).any():
-                continue
-            if not self.admissible(at):
-                self.skipped += 1
                 continue
             points.append(at)
             if len(points) == count:
@@ -474,11 +475,11 @@ class _Search:
             except Error as fault:
                 return str(fault).split(": ")[-1] if isinstance(fault, NumericsError) else str(fault)
             if coat.uniform:
-                return None
+                return "no pattern"
             u = _sheet(coat)
             measured = measure_picture(u, pixel=1 / size, periodic=self.wanted.periodic)
             if measured["kind"] == "uniform":
-                return None
+                return "no pattern"
             low, high = np.quantile(u, (0.005, 0.995))
             return {**measured, "level": (low + high) / 2, "range": high - low, "species": list(coat.fields)[-1]}
 
@@ -497,9 +498,7 @@ class _Search:
     def result(self, seeds: int) -> Match:
         weights, places = self._accepted(_FEWEST)
         finalists = [t.at for t in sorted(self.trials, key=lambda t: t.distance)[:_FINALISTS]]
-        mean = weights @ places
-        if self.admissible(mean):
-            finalists.append(mean)
+        finalists.append(weights @ places)
         best, inverted, ratio = self._best(finalists, seeds)
         final = self._grown([(best, _RESOLUTION / ratio)] * seeds)
         measured = [_inverted(m, inverted) for m in final if m is not None]

@@ -23,6 +23,9 @@ Measure = Callable[[Coat], Mapping[str, Any]]
 #: Called after every run with how many are done and how many there are; returning False stops the sweep.
 SweepProgress = Callable[[int, int], Optional[bool]]
 
+#: Points up to which one run hardly uses more than one core (measured: docs/python-match.md).
+_SMALL = 20_000
+
 
 class Table(Sequence[Mapping[str, Any]]):
     """Rows with the same names; `table["wavelength"]` is a column as an array, `table[3]` a row.
@@ -74,7 +77,7 @@ class Table(Sequence[Mapping[str, Any]]):
 
 def sweep(shape: ShapeLike, recipe: RecipeLike | None = None, *,
           over: Mapping[str, Iterable[Any]] | Iterable[Mapping[str, Any]], measure: Measure | None = None,
-          threads: int = 1, progress: SweepProgress | None = None, **changes: Any) -> Table:
+          threads: int | None = None, progress: SweepProgress | None = None, **changes: Any) -> Table:
     """Grows a coat for every combination of values and measures it: a row each, in the order of the combinations, the
     last name changing fastest.
 
@@ -82,7 +85,8 @@ def sweep(shape: ShapeLike, recipe: RecipeLike | None = None, *,
                changes (seed, size, quality, ...) or else of parameters of the model ("STAGE.PARAM")
     measure:   takes a coat and returns numbers by name; default: those of Coat.measure() that are single numbers, and
                "above.share", "spectrum.peak", ...
-    threads:   so many runs at a time. A run uses all cores by itself, except for small shapes.
+    threads:   so many runs at a time; default: on shapes of up to 20,000 points one for each core, on others, whose
+               runs use all cores by themselves, one
     changes:   hold for all runs, see Changes
 
     A run that fails (NumericsError, UsageError for values a model refuses, ...) is a row with "error"; one without a
@@ -104,7 +108,11 @@ def sweep(shape: ShapeLike, recipe: RecipeLike | None = None, *,
         except Error as fault:
             return {**row, "error": str(fault)}
 
-    return Table(run_all(run, points, threads, stop, progress))
+    return Table(run_all(run, points, threads or (1 if len(shape.points) > _SMALL else cores()), stop, progress))
+
+
+def cores() -> int:
+    return os.cpu_count() or 1
 
 
 def run_all(run: Callable[[Any], Any], points: Sequence[Any], threads: int, stop: threading.Event,
