@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Callable, Optional, Union
 
@@ -34,10 +35,15 @@ _RESOLUTION, _LEAST_ACROSS, _USUAL_ACROSS, _MOST_ACROSS = 10, 6, 8, 10
 _ORDERED = 0.5
 #: Runs of the search are shared out: this part over all of the bounds, the rest in rounds nearer and nearer.
 _SPREAD, _ROUNDS = 0.4, 4
+#: Deviation of proposals, in parts of the bounds, around a single place.
+_STRAY = 0.2
+#: Where linear theory refuses places, others are tried, so many times.
+_ATTEMPTS = 5
 #: Candidates that are grown again with further seeds.
 _FINALISTS = 4
 #: Fewer trials than these within all tolerances say nothing of the uncertainty: then the nearest ones do.
 _FEWEST = 12
+_REFUSED = "refused"
 #: So many tolerances nearer an inverted pattern has to be.
 _PREFERENCE = 0.1
 #: Range of parameters without bounds and variants: value / this to value * this.
@@ -80,7 +86,7 @@ class Match:
                     bounds); near 1 the combination is not determined at all, near 0 it is
     supporting:     of how many runs the uncertainty is made (the effective number)
     runs:           coats grown
-    skipped:        places at which nothing grows by linear theory
+    skipped:        places at which nothing grows by linear theory, or the model's wavelength is unknown
     failed:         runs by what became of them ("no pattern", ...)
     """
 
@@ -334,7 +340,6 @@ class _Search:
         self.names = list(self.bounds)
         self.low = np.array([b[0] for b in self.bounds.values()], dtype=float)
         self.high = np.array([b[1] for b in self.bounds.values()], dtype=float)
-        self.grows_from_rest = self.analysis.regime in ("quiet", "no_state", "departure")
         self.inversions = (False, True) if invert is None else (invert,)
         self.searched = [name for name in wanted.measures if name != "wavelength"]
         across = min(max(round(wanted.across or _USUAL_ACROSS), _LEAST_ACROSS), _MOST_ACROSS)
@@ -362,62 +367,46 @@ class _Search:
     def values_at(self, at: Numbers) -> dict[str, float]:
         return {name: float(v) for name, v in zip(self.names, self.low + at * (self.high - self.low))}
 
-    def admissible(self, at: Numbers) -> bool:
-        """Whether waves grow there, unless the model is one that grows from seeds."""
-        if self.grows_from_rest:
-            return True
-        try:
-            regime = analyse(self.model, self.values_at(at)).regime
-        except Error:
-            return False
-        return regime not in ("quiet", "no_state", "departure")
-
     # -- runs
 
     def run(self, runs: int, seeds: int) -> None:
         self.planned = runs + (_FINALISTS + 2) * seeds
         count = round(_SPREAD * runs)
-        starts = [self._cube(s) for s in self.starts]
-        self._round(([x for x in starts if self.admissible(x)] + self._spread(count))[:count],
-                    lambda x: np.ones(len(x)))
+        points = self._points()
+        for _ in range(_ATTEMPTS):
+            missing = count - self.done
+            if missing > 0:
+                self._round([next(points) for _ in range(missing)], lambda x: np.ones(len(x)))
+        if not self.trials:
+            raise NumericsError(f"no pattern anywhere within the bounds: {self.done} runs without one, {self.skipped} "
+                                "places where the model has no wavelength, by linear theory")
         left = runs - count
         for i in range(_ROUNDS):
             share = left // _ROUNDS + (1 if i < left % _ROUNDS else 0)
-            points, density = self._near(share)
-            self._round(points, density)
-        if not self.trials:
-            raise NumericsError(f"no pattern in {self.done} runs within the bounds ({self.skipped} skipped)")
+            near, density = self._near(share)
+            self._round(near, density)
 
     def _cube(self, values: Mapping[str, float]) -> Numbers:
         places = (np.array([values[n] for n in self.names]) - self.low) / (self.high - self.low)
         return np.asarray(places.clip(0, 1))
 
-    def _spread(self, count: int) -> list[Numbers]:
-        """Points that fill the bounds evenly: the additive sequence of Roberts (2018)."""
+    def _points(self) -> Iterator[Numbers]:
+        """The variants, then points that fill the bounds evenly: the additive sequence of Roberts (2018)."""
+        yield from (self._cube(start) for start in self.starts)
         d = len(self.names)
         root = 2.0
         for _ in range(60):
             root = (1 + root)**(1 / (d + 1))
         steps = root**-np.arange(1, d + 1)
-        points: list[Numbers] = []
-        for i in range(1, max(10 * count, 40)):
-            at = (0.5 + i * steps) % 1
-            if self.admissible(at):
-                points.append(at)
-            else:
-                self.skipped += 1
-            if len(points) == count:
-                break
-        if not points:
-            raise NumericsError("linear theory: nothing grows anywhere within the bounds")
-        return points
+        for i in itertools.count(1):
+            yield (0.5 + i * steps) % 1
 
     def _near(self, count: int) -> tuple[list[Numbers], Callable[[Numbers], Numbers]]:
         """Points around the trials that do best, drawn by their weights, and the density of such points."""
-        if not self.trials:
-            return self._spread(count), lambda x: np.ones(len(x))
         weights, places = self._accepted(max(6, len(self.trials) // 5))
-        covariance = _covariance(weights, places) + 0.02**2 * np.eye(len(self.names))
+        count_of = 1 / (weights**2).sum()  # the effective number; few places leave their own spread uncertain
+        spread = (count_of * _covariance(weights, places) + _STRAY**2 * np.eye(len(self.names))) / (count_of + 1)
+        covariance = 2 * spread
         root, inverse = np.linalg.cholesky(covariance), np.linalg.inv(covariance)
         points: list[Numbers] = []
         for _ in range(100 * count):
@@ -472,8 +461,10 @@ class _Search:
                             parameters=self.values_at(at), progress=lambda *_: not stop.is_set())
             except Cancelled:
                 raise
+            except UsageError:  # the model has no wavelength there
+                return _REFUSED
             except Error as fault:
-                return str(fault).split(": ")[-1] if isinstance(fault, NumericsError) else str(fault)
+                return type(fault).__name__
             if coat.uniform:
                 return "no pattern"
             u = _sheet(coat)
@@ -487,9 +478,11 @@ class _Search:
             return None if self.progress is None else self.progress(self.done + done, self.planned)
 
         found = run_all(one, range(len(what)), self.threads, stop, told)
-        self.done += len(what)
+        refused = found.count(_REFUSED)
+        self.skipped += refused
+        self.done += len(what) - refused
         for text in found:
-            if isinstance(text, str):
+            if isinstance(text, str) and text != _REFUSED:
                 self.failed[text] = self.failed.get(text, 0) + 1
         return [m if isinstance(m, dict) else None for m in found]
 
@@ -514,7 +507,7 @@ class _Search:
                 m["wavelength"] *= size
         low, high = self.low, self.high
         supporting = float(1 / (weights**2).sum())
-        if supporting < 10:
+        if supporting < 15:
             notes.append(f"the uncertainty rests on some {supporting:.0f} runs: take more runs")
         interval = {}
         for i, name in enumerate(self.names):

@@ -77,7 +77,7 @@ def test_match_recovers_size_coverage_and_kind(maker, model, seed):
     assert np.mean([m["wavelength"] for m in measured]) == pytest.approx(wanted["wavelength"], rel=0.05)
     assert np.mean([m["coverage"] for m in measured]) == pytest.approx(wanted["coverage"], abs=0.05)
     assert [m["kind"] for m in measured].count(wanted["kind"]) >= 2
-    assert found.reached, found.summary()
+    assert not {"wavelength", "coverage", "kind"} & set(found.missed), found.summary()
     assert set(found.parameters) == {"F", "k"} and found.runs == 40 + 6 * 2
 
 
@@ -90,7 +90,7 @@ def test_the_same_arguments_give_the_same_match_whatever_the_threads():
 
 def test_orientation_and_what_is_determined():
     wanted = {"orientation": 35, "kind": "stripes"}
-    found = pelage.match(wanted, "witkin-kass-stripes", {"theta": (-1.5, 1.5), "k": (0.9, 1.1)}, runs=40, seeds=2)
+    found = pelage.match(wanted, "witkin-kass-stripes", {"theta": (-1.5, 1.5), "k": (0.9, 1.1)}, runs=60, seeds=2)
     assert found.reached and math.degrees(found.parameters["theta"]) == pytest.approx(35, abs=8)
     low, high = found.uncertainty["theta"]
     assert math.degrees(low) < 35 < math.degrees(high) and high - low < 0.8
@@ -109,7 +109,7 @@ def test_what_cannot_be_reached_is_said():
 def test_places_where_nothing_grows_are_skipped():
     found = pelage.match({"coverage": 0.3}, "schnakenberg", {"b": (0.9, 2.5)}, runs=10, seeds=1)
     assert found.skipped > 0
-    with pytest.raises(pelage.NumericsError, match="nothing grows anywhere"):
+    with pytest.raises(pelage.NumericsError, match="no pattern anywhere"):
         pelage.match({"coverage": 0.3}, "schnakenberg", {"b": (3.5, 4.0)}, runs=12)
 
 
@@ -125,9 +125,10 @@ def test_the_recipe_is_the_match():
     assert 'color = "#c81e1e"' in found.recipe() and 'color = "#141478"' in found.recipe()
     by_hand = pelage.tile(model=model, parameters=found.parameters, nodes=48, size="12px", seed=3)
     assert np.array_equal(found.tile(48, size="12px", seed=3).fields["u"], by_hand.fields["u"])
-    coat = found.grow("builtin:sphere?n=642", size="0.6u", seed=1)
-    is_red = coat.colors[:, 0] > coat.colors[:, 2]
-    assert is_red.mean() == pytest.approx(coat.measure()["above"]["share"], abs=0.1)
+    colors = found.tile(96, size="12px", seed=4).colors
+    is_red = colors[:, 0] > colors[:, 2]
+    assert is_red.mean() == pytest.approx(found.measures["coverage"].reached, abs=0.05)
+    assert not found.grow("builtin:sphere?n=642", size="0.6u", seed=1).uniform
 
 
 def test_a_coat_on_a_surface_is_a_target():
