@@ -55,7 +55,7 @@ pelage.save_png(np.repeat(np.repeat((rows / rows.max())[..., None], 3, 2), 8, 0)
 
 # %%
 counts = []
-for t in (50, 100):
+for t in (40, 75):
     sphere = pelage.grow("builtin:sphere?n=642", model="schnakenberg", size=0.3, growth=growth, until=t)
     counts.append(sphere.measure()["spots"]["count"])
 print("spots on the growing sphere:", counts)
