@@ -86,6 +86,15 @@ def test_ctrl_c_ends_all_runs(threads):
     assert len(measured) < 20
 
 
+def test_ctrl_c_ends_the_run_that_grows():
+    measured = []
+    with pytest.raises(KeyboardInterrupt):
+        pelage.sweep(TILE, model="barkley", size="16px", over={"until": [0.1, 400.0]}, threads=2,
+                     progress=lambda done, count: os.kill(os.getpid(), signal.SIGINT),
+                     measure=lambda coat: measured.append(coat.summary["time"]) or {})
+    assert len(measured) == 1 and measured[0] < 1
+
+
 def test_progress_can_stop_it_and_faults_of_measures_come_through():
     with pytest.raises(pelage.Cancelled):
         pelage.sweep(TILE, over={"seed": range(4)}, progress=lambda done, count: done < 2, **SPOTS)
