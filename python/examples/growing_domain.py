@@ -1,9 +1,9 @@
 # %% [markdown]
 # # Patterns on what grows
 #
-# On a line that grows exponentially, the peaks of Schnakenberg's model split and double, again and again (Crampin, Gaffney,
-# Maini 1999, Bull. Math. Biol. 61, 1093-1120). In coordinates that grow with the line its diffusions fall as exp(-2 r t),
-# and growth dilutes.
+# On a line that grows exponentially, the peaks of Schnakenberg's model split and double, again and again (Crampin,
+# Gaffney, Maini 1999, Bull. Math. Biol. 61, 1093-1120). In coordinates that grow with the line its diffusions fall as
+# exp(-2 r t), and growth dilutes.
 
 # %%
 import os
@@ -36,13 +36,12 @@ initial = "1 + 0.1*cos(pi*x)"
 
 # %%
 run = pelage.Run(f"builtin:line?n={nodes}", model=line, unit="1u", until=until)
-rows, times, peaks = [], [], []
+rows, peaks = [], []
 for moment in np.arange(10, until + 1, 10):
     while not run.done and run.time < moment:
         run.advance(1)
     u = run.get("u")
     rows.append(u)
-    times.append(run.time)
     high = np.concatenate([[-np.inf], u, [-np.inf]])
     top = (high[1:-1] > high[:-2]) & (high[1:-1] >= high[2:]) & (u > (u.min() + u.max()) / 2)
     peaks.append((2 * top.sum() - top[0] - top[-1]) if np.ptp(u) > 0.1 else 0)  # in halves: those at an end are half

@@ -1,8 +1,8 @@
 # %% [markdown]
 # # Ten pictures, matched with models that did not make them
 #
-# Each target is the picture of a pattern: one seed of one model. `pelage.match` gets the picture alone and another model. What
-# it finds is grown anew with seeds and at a resolution of its own, and compared.
+# Each target is the picture of a pattern: one seed of one model. `pelage.match` gets the picture alone and another
+# model. What it finds is grown anew with seeds and at a resolution of its own, and compared.
 
 # %%
 import os
@@ -15,8 +15,9 @@ import pelage
 
 out = Path(sys.argv[1] if len(sys.argv) == 2 else "out")
 out.mkdir(parents=True, exist_ok=True)
-pairs = [("gray-scott:spots", "schnakenberg"), ("schnakenberg:stripes", "bvam"), ("lengyel-epstein:holes", "brusselator"),
-         ("gray-scott", "lengyel-epstein"), ("swift-hohenberg:hexagons", "gray-scott"), ("turing:mixed", "gray-scott"),
+pairs = [("gray-scott:spots", "schnakenberg"), ("schnakenberg:stripes", "bvam"),
+         ("lengyel-epstein:holes", "brusselator"), ("gray-scott", "lengyel-epstein"),
+         ("swift-hohenberg:hexagons", "gray-scott"), ("turing:mixed", "gray-scott"),
          ("gray-scott:mu", "fitzhugh-nagumo"), ("brusselator:stripes", "gray-scott"), ("thomas", "turing"),
          ("klausmeier:labyrinth", "gierer-meinhardt")]
 chosen = [int(i) for i in os.environ.get("TARGETS", "0,1,2,3,4,5,6,7,8,9").split(",")]

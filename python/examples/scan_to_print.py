@@ -1,8 +1,8 @@
 # %% [markdown]
 # # From a scan to a part that is printed
 #
-# A scan is noisy. Here noise is put on a clean shape, so that what fairing takes off can be measured; then a coat grows in
-# relief and is written for a printer.
+# A scan is noisy. Here noise is put on a clean shape, so that what fairing takes off can be measured; then a coat
+# grows in relief and is written for a printer.
 
 # %%
 import os
@@ -32,7 +32,8 @@ faired = pelage.fair(scan)
 def roughness(points):
     """Mean angle between neighbouring triangles' normals and those of the clean shape [degrees]."""
     def normals(p):
-        n = np.cross(p[clean.triangles[:, 1]] - p[clean.triangles[:, 0]], p[clean.triangles[:, 2]] - p[clean.triangles[:, 0]])
+        a, b, c = (p[clean.triangles[:, k]] for k in range(3))
+        n = np.cross(b - a, c - a)
         return n / np.linalg.norm(n, axis=1, keepdims=True)
     return np.degrees(np.arccos((normals(points) * normals(clean.points)).sum(1).clip(-1, 1))).mean()
 

@@ -1,9 +1,9 @@
 # %% [markdown]
 # # Spots over many seeds
 #
-# One coat is one draw. This grows Turing spots on a sphere from many starts and looks at what varies: their number, how far
-# the nearest neighbour is, and how many neighbours a spot has. On a sphere the sum of 6 - n over all spots is 12, whatever
-# the pattern (Euler); the six-neighboured lattice of the plane cannot close.
+# One coat is one draw. This grows Turing spots on a sphere from many starts and looks at what varies: their number,
+# how far the nearest neighbour is, and how many neighbours a spot has. On a sphere the sum of 6 - n over all spots is
+# 12, whatever the pattern (Euler); the six-neighboured lattice of the plane cannot close.
 
 # %%
 import os
@@ -38,8 +38,8 @@ for name in table.names[3:]:
     print(f"{name:8s} {column.mean():8.3f} +- {column.std(ddof=1):.3f}")
 
 # %% [markdown]
-# The number varies by a few percent, the shares of five- and seven-neighboured spots come and go in pairs, and the turn is
-# 12 for every one of them.
+# The number varies by a few percent, the shares of five- and seven-neighboured spots come and go in pairs, and the
+# turn is 12 for every one of them.
 
 # %%
 variation = table["spots"].std(ddof=1) / table["spots"].mean()

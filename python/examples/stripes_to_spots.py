@@ -1,8 +1,8 @@
 # %% [markdown]
 # # Stripes that become spots
 #
-# A parameter may be a formula of the place. The model of Barrio, Varea, Aragon and Maini has stripes where its quadratic
-# term r2 is 0 and spots where it is large; here it rises from the left side to the right one.
+# A parameter may be a formula of the place. The model of Barrio, Varea, Aragon and Maini has stripes where its
+# quadratic term r2 is 0 and spots where it is large; here it rises from the left side to the right one.
 
 # %%
 import os
@@ -22,15 +22,15 @@ coat = pelage.grow(f"builtin:sheet?n={2 * rows}x{rows}", model="bvam", parameter
 pelage.save_png(coat.image(), out / "stripes-to-spots.png")
 
 # %% [markdown]
-# The Euler number per squared wavelength counts spots: 0.87 for a lattice of them, 0 for stripes. Coherence is 1 for straight
-# stripes.
+# The Euler number per squared wavelength counts spots: 0.87 for a lattice of them, 0 for stripes. Coherence is 1 for
+# straight stripes.
 
 # %%
 field = coat.fields["u"].reshape(rows, 2 * rows)[::-1]
 left = pelage.measure_picture(field[:, :int(0.6 * rows)])
 right = pelage.measure_picture(field[:, -int(0.6 * rows):])
 for side, m in (("left", left), ("right", right)):
-    print(f"{side:5s} {m['kind']:7s} euler {m['euler']:.2f}, coherence {m['coherence']:.2f}, coverage {m['coverage']:.2f}")
+    print(side, m["kind"], ", ".join(f"{name} {m[name]:.2f}" for name in ("euler", "coherence", "coverage")))
 
 # %%
 animal = pelage.grow("builtin:animal", model="bvam", parameters=rise, size=0.04, quality=quality)

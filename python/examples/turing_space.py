@@ -1,8 +1,8 @@
 # %% [markdown]
 # # Where Schnakenberg's model makes patterns
 #
-# Linear theory says at which supplies a and b the uniform state is stable without diffusion and unstable with it: the Turing
-# space. `pelage.analyse` says it at no cost; a few coats then show whether it is true.
+# Linear theory says at which supplies a and b the uniform state is stable without diffusion and unstable with it: the
+# Turing space. `pelage.analyse` says it at no cost; a few coats then show whether it is true.
 
 # %%
 import os
@@ -28,8 +28,8 @@ for row in reversed(regimes):
     print(" ".join(letters.get(regime, "?") for regime in row))
 
 # %% [markdown]
-# The conditions of textbooks (Murray, *Mathematical Biology II*, section 2.3): with the derivatives of the kinetics at the
-# steady state, fu + gv < 0, the determinant > 0, d fu + gv > 0, and (d fu + gv)^2 > 4 d times the determinant.
+# The conditions of textbooks (Murray, *Mathematical Biology II*, section 2.3): with the derivatives of the kinetics
+# at the steady state, fu + gv < 0, the determinant > 0, d fu + gv > 0, and (d fu + gv)^2 > 4 d times the determinant.
 
 # %%
 A, B = np.meshgrid(a, b)
@@ -37,7 +37,7 @@ fu, fv, gu, gv = (B - A) / (A + B), (A + B)**2, -2 * B / (A + B), -(A + B)**2
 determinant = fu * gv - fv * gu
 textbook = (fu + gv < 0) & (determinant > 0) & (d * fu + gv > 0) & ((d * fu + gv)**2 > 4 * d * determinant)
 theory = np.array(regimes) == "turing"
-print(f"{theory.sum()} of {theory.size} cells are Turing-unstable, {(theory != textbook).sum()} differ from the textbook")
+print(f"{theory.sum()} of {theory.size} cells are Turing-unstable; {(theory != textbook).sum()} differ from the book")
 
 # %%
 places = [{"a": x, "b": y} for x in (0.05, 0.15, 0.3) for y in (0.7, 1.1, 1.7)]

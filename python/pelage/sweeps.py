@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import importlib
 import itertools
 import os
 import threading
@@ -61,8 +62,7 @@ class Table(Sequence[Mapping[str, Any]]):
 
     def to_pandas(self) -> Any:
         """As a DataFrame; needs pandas."""
-        import pandas  # type: ignore[import]
-        return pandas.DataFrame({name: self.column(name) for name in self.names})
+        return importlib.import_module("pandas").DataFrame({name: self.column(name) for name in self.names})
 
     def save_csv(self, path: str | os.PathLike[str]) -> None:
         with open(path, "w", newline="", encoding="utf-8") as file:
