@@ -1,6 +1,6 @@
 # Thin verbs over tools/*.sh and the CMake presets, for those who have make.
 .DEFAULT_GOAL := build
-.PHONY: setup build studio site blender-addon demo test test-page bench bench-parts test-clients format format-check tidy asan tsan sanitizers mutants fuzz clean
+.PHONY: setup build studio site blender-addon demo notebooks test test-page bench bench-parts test-clients format format-check tidy asan tsan sanitizers mutants fuzz clean
 
 export JOBS ?= $(shell nproc)
 CMAKE_BUILD := cmake --build --parallel $(JOBS) --preset
@@ -24,6 +24,9 @@ blender-addon:  ## the add-on for Blender, with pictures of all coats: out/pelag
 
 demo:  ## grow a coat on the built-in animal: out/demo.glb, out/demo.ply, out/demo.png
 	@sh tools/demo.sh
+
+notebooks:  ## the examples for Python as Jupyter notebooks: out/notebooks
+	@python3 tools/notebooks.py out/notebooks python/examples/*.py
 
 test:  ## build everything and run every test
 	@sh tools/test.sh

@@ -12,6 +12,7 @@ const groups = [
   ["Shapes", docs("grids", "regions", "cells", "volumes", "solid", "unwrap")],
   ["Results", docs("formats", "pictures", "scenes", "frames", "textures", "gltf", "blender", "lines", "print")],
   ["Runs", docs("checkpoints", "provenance", "untrusted")],
+  ["Programs", docs("python", "python-match")],
   ["Studio", docs("studio", "studio-protocol", "site")],
   ["Inside", [...docs("method", "performance", "architecture", "dependencies"), "CONTRIBUTING.md", "CHANGELOG.md"]],
 ];

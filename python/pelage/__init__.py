@@ -16,9 +16,12 @@ from . import _core
 from .errors import Cancelled, Error, InputError, NumericsError, OutputError, UsageError
 from .geometry import DirectionField, Faired, direction_field, fair, grid, measure
 from .growing import Coat, Run, grow, tile
+from .matching import Match, match
 from .models import Analysis, analyse
+from .planar import measure_picture
 from .recipes import Changes, Model
 from .shapes import Shape, as_shape, load
+from .sweeps import Table, sweep
 
 __version__: str = _core.version
 
@@ -43,6 +46,7 @@ def save_png(picture: ArrayLike, path: str | os.PathLike[str]) -> None:
     _core.write_png(np.asarray(picture, dtype=np.float32), os.fspath(path))
 
 
-__all__ = ["Analysis", "Cancelled", "Changes", "Coat", "DirectionField", "Error", "Faired", "InputError", "Model",
-           "NumericsError", "OutputError", "Run", "Shape", "UsageError", "analyse", "as_shape", "direction_field", "fair",
-           "grid", "grow", "load", "measure", "mesh_extensions", "model_names", "recipe_names", "save_png", "tile"]
+__all__ = ["Analysis", "Cancelled", "Changes", "Coat", "DirectionField", "Error", "Faired", "InputError", "Match",
+           "Model", "NumericsError", "OutputError", "Run", "Shape", "Table", "UsageError", "analyse", "as_shape",
+           "direction_field", "fair", "grid", "grow", "load", "match", "measure", "measure_picture",
+           "mesh_extensions", "model_names", "recipe_names", "save_png", "sweep", "tile"]
