@@ -1,6 +1,6 @@
 # Thin verbs over tools/*.sh and the CMake presets, for those who have make.
 .DEFAULT_GOAL := build
-.PHONY: setup build studio site demo notebooks test test-page bench bench-parts test-clients format format-check tidy asan tsan sanitizers mutants fuzz clean
+.PHONY: setup build studio site blender-addon demo notebooks test test-page bench bench-parts test-clients format format-check tidy asan tsan sanitizers mutants fuzz clean
 
 export JOBS ?= $(shell nproc)
 CMAKE_BUILD := cmake --build --parallel $(JOBS) --preset
@@ -18,6 +18,9 @@ studio: build  ## the studio's page, beside the program: build/release/bin/pelag
 
 site: build  ## gallery, figures, guides, reference and the studio as plain files: out/site
 	@sh tools/site.sh
+
+blender-addon:  ## the add-on for Blender, with pictures of all coats: out/pelage_addon.zip
+	@python3 tools/blender_addon.py
 
 demo:  ## grow a coat on the built-in animal: out/demo.glb, out/demo.ply, out/demo.png
 	@sh tools/demo.sh

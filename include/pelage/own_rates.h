@@ -4,8 +4,8 @@
 
 #include <cstddef>
 #include <functional>
-#include <span>
 #include <string>
+#include <vector>
 
 namespace pelage {
 
@@ -15,8 +15,8 @@ namespace pelage {
 /// for disjoint ranges; must give the same for the same values. What it throws ends the step and is thrown on.
 struct OwnRates {
   std::string stage = {};  ///< of the recipe; empty: the last
-  std::function<void(std::span<const double* const> u, double t, std::size_t begin, std::size_t end,
-                     std::span<double* const> rate)>
+  std::function<void(const std::vector<const double*>& u, double t, std::size_t begin, std::size_t end,
+                     const std::vector<double*>& rate)>
       rates = {};
 };
 

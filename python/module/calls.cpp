@@ -36,8 +36,8 @@ void take_rates(const py::handle& from, std::size_t count, double* to) {
                           ", not " + std::to_string(rates.size()));
 }
 
-void call(const py::object& function, std::span<const double* const> u, double t, std::size_t count,
-          std::span<double* const> rate) {
+void call(const py::object& function, const std::vector<const double*>& u, double t, std::size_t count,
+          const std::vector<double*>& rate) {
   const py::capsule library(&function, [](void*) {});  // whose memory it is
   py::tuple arguments(u.size() + 1);
   arguments[0] = t;
@@ -65,8 +65,8 @@ Progress progress_of(py::object function, std::shared_ptr<Thrown> thrown) {
 OwnRates own_rates_of(py::object function, std::string stage, std::shared_ptr<Thrown> thrown) {
   if (function.is_none()) return {};
   return {std::move(stage), [function = shared(std::move(function)), thrown = std::move(thrown)](
-                                std::span<const double* const> u, double t, std::size_t begin, std::size_t end,
-                                std::span<double* const> rate) {
+                                const std::vector<const double*>& u, double t, std::size_t begin, std::size_t end,
+                                const std::vector<double*>& rate) {
             py::gil_scoped_acquire lock;
             try {
               call(*function, u, t, end - begin, rate);

@@ -42,6 +42,16 @@ TEST(RecipeChanges, ReachTheStageThatTheyName) {
   EXPECT_EQ(recipe.stages[0].seed + recipe.stages[1].seed, 18u);
 }
 
+TEST(RecipeChanges, TakeThePlaceOfWhatTheRecipeSays) {
+  RecipeChanges changes;
+  changes.settings = {"s=0.06"};
+  const Recipe given = parse_recipe("[stage]\nmodel = \"turing\"\nparameters = { s = 0.05, Da = 0.13 }\n", "test");
+  const std::vector<Stage::Setting> parameters = with_changes(given, changes).stages[0].parameters;
+  ASSERT_EQ(parameters.size(), 2u);
+  EXPECT_EQ(parameters[1].name, "s");
+  EXPECT_EQ(parameters[1].value, 0.06);
+}
+
 TEST(RecipeChanges, SayWhatIsWrongInTheWordsOfTheirCaller) {
   RecipeChanges changes;
   changes.settings = {"s=0.06"};

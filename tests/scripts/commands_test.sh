@@ -46,7 +46,7 @@ installed 'echo "install ok installed"'
 run env JOBS=3 sh "$checkout/tools/test.sh"
 [ $code -eq 8 ] || fail "test.sh ends with $code instead of ctest's 8"
 [ "$(tail -n 1 "$work/stdout")" = "100% tests passed" ] || fail "test.sh does not end with ctest's lines"
-test_steps=("cmake --preset release -DPELAGE_TESTS=ON -DPELAGE_BENCHMARKS=OFF" "cmake --build --preset release --parallel 3"
+test_steps=("cmake --preset release -DPELAGE_TESTS=ON -DPELAGE_BENCHMARKS=OFF -DPELAGE_PYTHON=ON -DPython_EXECUTABLE=/usr/bin/python3" "cmake --build --preset release --parallel 3"
   "ctest --preset release --parallel 3")
 expect_steps "${test_steps[@]}"
 run env JOBS=3 CDPATH=/usr "$checkout/.ci/run"
