@@ -25,7 +25,7 @@ OUTSIDE = {"tbb/": ["src/base/parallel.cpp"], "sanitizer/": ["src/base/parallel.
            "spng.h": ["src/io/png_reader.cpp"], "turbojpeg.h": ["src/io/jpeg_reader.cpp"],
            "libdeflate.h": ["src/io/zlib.cpp"],
            "pugixml.hpp": ["src/io/vtk_document.", "src/io/record_in_file.cpp"], "stb_truetype.h": ["src/look/text.cpp"], "embree3/": ["src/render/"],
-           "malloc.h": ["apps/cli/main.cpp"], "unistd.h": ["src/io/", "apps/cli/"], "fcntl.h": ["src/io/"],
+           "malloc.h": ["apps/cli/main.cpp", "python/module/module.cpp"], "unistd.h": ["src/io/", "apps/cli/"], "fcntl.h": ["src/io/"],
            "sys/": ["src/io/temporary_file.cpp", "apps/cli/"], "spawn.h": ["apps/cli/"], "CLI/": ["apps/cli/"], "httplib.h": ["apps/cli/studio_server.cpp"], "nlohmann/": ["apps/cli/", "src/studio/", "src/io/gltf_", "src/io/record.cpp"],
            "pybind11/": ["python/module/"], "sha2.h": ["src/io/sha256.cpp"], "draco/": ["src/io/gltf_draco.cpp"], "meshoptimizer.h": ["src/io/gltf_meshoptimizer.cpp", "src/io/gltf_compressor.cpp"]}
 

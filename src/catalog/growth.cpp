@@ -86,9 +86,16 @@ void take(const OwnRates& own, Program& program) {
   program.stages[static_cast<std::size_t>(found - names.begin())].own_rates = own.rates;
 }
 
+/// A function costs a call: it gets a stepper that makes few of them, for many samples each.
+Recipe suited_to(const OwnRates& own, Recipe recipe) {
+  for (Stage& stage : recipe.stages)
+    if (own.rates && stage.stepper.value.empty()) stage.stepper.value = sbdf2.name;
+  return recipe;
+}
+
 /// The run, and the file without what the run has of it.
 std::pair<Run, ShapeFile> run_on(ShapeFile file, const Recipe& recipe, const Progress& progress, const OwnRates& own) {
-  const Plan planned = plan(recipe);
+  const Plan planned = plan(suited_to(own, recipe));
   std::vector<Texture> images = read_images(recipe.textures);
   fill_solid(planned, file, images);
   Program program = bind_plan(planned, file, std::move(images));
