@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "catalog/textured_coat.h"
 #include "grow_run.h"
 #include "input_unit.h"
 #include "io/file_bytes.h"
@@ -17,7 +18,6 @@
 #include "node_outputs.h"
 #include "shape/normals.h"
 #include "shape/simplify.h"
-#include "shape/triangulate.h"
 #include "shape/vectors.h"
 #include "text.h"
 
@@ -39,13 +39,6 @@ bool wants_patches(const GrowOptions& options, const ShapeFile& file) {
   if (!atlas || !wanted) return false;
   lay_out(*atlas, texture_size(options));
   return true;
-}
-
-/// The file's own mesh as it is cut into triangles; where repairs have changed those, the one of the run.
-TriangleMesh shaded_mesh(const PolygonMesh& textured, const TriangleMesh& shape) {
-  std::vector<Finding> ignored;
-  TriangleMesh mesh = triangulate(textured, ignored).mesh;
-  return mesh.triangles.size() == shape.triangles.size() ? mesh : shape;
 }
 
 /// The mesh that shows the images, and its triangles.
@@ -229,10 +222,12 @@ void make_atlas(const GrowOptions& options, const Recipe& recipe, ShapeFile& fil
   if (!wants_images(options) || (file.nodes && !as<Cells>(file.nodes)) || file.mesh.triangles.empty() ||
       has_uv(file.mesh) || (!recipe.textures.empty() && options.onto.empty()))
     return;
-  auto [with_uv, line] = interruptible("before the growth began; nothing was written",
-                                       [&] { return with_atlas(std::move(file), texture_size(options), progress); });
-  file = std::move(with_uv);
-  report.warning(line + (options.outputs.empty() ? "; only the mesh of -o FILE has it" : ""));
+  const int size = std::max(texture_size(options), smallest_texture);
+  AtlasShape atlas = interruptible("before the growth began; nothing was written",
+                                   [&] { return with_atlas(std::move(file), size, progress); });
+  file = std::move(atlas.file);
+  report.warning("the shape has no uv: it gets an atlas of " + counted(atlas.charts, "chart") +
+                 ", as pelage unwrap makes it" + (options.outputs.empty() ? "; only the mesh of -o FILE has it" : ""));
 }
 
 std::optional<UvLayout> layout_of(const GrowOptions& options, const ShapeFile& file, GrowReport& report) {

@@ -131,14 +131,6 @@ std::string too_coarse(const TriangleMesh& shape, int size, double wavelength) {
                                            : "an atlas that stretches less would give more, see pelage unwrap");
 }
 
-std::pair<ShapeFile, std::string> with_atlas(ShapeFile file, int size, const Progress& progress) {
-  const PolygonMesh polygons = file.source ? file.source->polygons : polygons_of(file.mesh);
-  Unwrapped atlas = unwrap(polygons, atlas_options(std::max(size, smallest_texture)), progress);
-  std::string line = "the shape has no uv: it gets an atlas of " + counted(atlas.report.charts, "chart") +
-                     ", as pelage unwrap makes it";
-  return {with_attribute(std::move(file), std::move(atlas.uv)), std::move(line)};
-}
-
 UvLayout uv_layout(const TriangleMesh& shape, int size) {
   if (!has_uv(shape))
     throw Error(Fault::usage,

@@ -47,9 +47,6 @@ std::vector<std::string> save_patches(const PatchTexture& texture, const std::st
 
 // --- surfaces ------------------------------------------------------------------------------------------
 
-/// The shape with the atlas that pelage unwrap makes for images of that size, and a line that says so.
-std::pair<ShapeFile, std::string> with_atlas(ShapeFile file, int size, const Progress& progress);
-
 /// Of a shape that the run has, for images of that size. Error(Fault::usage) where it has no uv.
 UvLayout uv_layout(const TriangleMesh& shape, int size);
 

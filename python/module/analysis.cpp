@@ -131,7 +131,6 @@ void bind_analysis(py::module_& m) {
     }();
     return about(measures);
   });
-  m.def("field_names", [](const ShapeFile& shape) { return field_names(shape.mesh); });
 }
 
 }  // namespace pelage::python

@@ -82,6 +82,20 @@ OwnRates own_rates_of(py::object function, std::string stage, std::shared_ptr<Th
           }};
 }
 
+UpAxis up_called(const std::string& name) {
+  if (name == "y") return UpAxis::y;
+  if (name == "z") return UpAxis::z;
+  throw py::value_error("up is y or z, not " + name);
+}
+
+SaveOptions save_options(const std::string& name, const std::string& up, bool compress) {
+  SaveOptions options;
+  options.name = name;
+  options.up = up_called(up);
+  options.compress = compress;
+  return options;
+}
+
 void translate_errors() {
   py::register_exception_translator([](std::exception_ptr p) {
     try {

@@ -5,9 +5,11 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "arrays.h"
 #include "pelage/error.h"
+#include "pelage/io.h"
 #include "pelage/own_rates.h"
 #include "pelage/progress.h"
 
@@ -59,6 +61,10 @@ auto with_progress(py::object function, Work&& work) {
   const Progress progress = progress_of(std::move(function), thrown);
   return without_lock(*thrown, [&] { return work(progress); });
 }
+
+/// `up`: "y" or "z"; throws Python's ValueError otherwise.
+UpAxis up_called(const std::string& up);
+SaveOptions save_options(const std::string& name, const std::string& up, bool compress);
 
 /// Error as the exceptions of pelage/errors.py.
 void translate_errors();

@@ -76,27 +76,11 @@ py::dict images_of(const TexturedMesh& baked) {
 
 void save_baked(const TexturedMesh& baked, const std::string& path, const std::string& name, const std::string& up,
                 bool compress) {
-  SaveOptions options;
-  options.name = name;
-  options.up = up == "z" ? UpAxis::z : UpAxis::y;
-  options.compress = compress;
+  SaveOptions options = save_options(name, up, compress);
   options.textures = {baked.maps};
   options.repeat = baked.repeat;
   py::gil_scoped_release release;
   save(baked.mesh, path, options);
-}
-
-py::object grid_attributes(const Growth& growth) {
-  const Grid grid = growth.dress_grid();
-  py::dict all;
-  for (const Attribute& a : grid.attributes) {
-    Extent extent;
-    for (std::size_t k = 3; k-- > 0;)
-      if (k == 0 || grid.count[k] > 1) extent.push_back(grid.count[k]);
-    if (a.components > 1) extent.push_back(a.components);
-    all[py::str(a.name)] = owned<double>(std::vector<double>(a.values), extent);
-  }
-  return all;
 }
 
 }  // namespace
@@ -128,7 +112,6 @@ void bind_growth(py::module_& m) {
       .def_property_readonly("warnings", [](const PythonGrowth& g) { return g.growth().warnings(); })
       .def("dress", [](PythonGrowth& g) { return g.unlocked([](Growth& x) { return x.dress(); }); })
       .def("dress_in_file", [](PythonGrowth& g) { return g.unlocked([](Growth& x) { return x.dress_in_file(); }); })
-      .def("grid_attributes", [](const PythonGrowth& g) { return grid_attributes(g.growth()); })
       .def("fields",
            [](PythonGrowth& g) {
              py::dict all;

@@ -3,7 +3,6 @@
 #include "bindings.h"
 #include "calls.h"
 #include "pelage/analyse.h"
-#include "pelage/fair.h"
 #include "pelage/grow.h"
 #include "pelage/recipe_changes.h"
 
@@ -51,12 +50,6 @@ void bind_recipes(py::module_& m) {
       .def_readonly("summary", &Recipe::summary)
       .def_readonly("shape", &Recipe::shape)
       .def_property_readonly("keeps_shape", [](const Recipe& self) { return self.look.keep_shape; })
-      .def_property_readonly("stages",
-                             [](const Recipe& self) {
-                               std::vector<std::pair<std::string, std::string>> stages;
-                               for (const Stage& s : self.stages) stages.emplace_back(s.name.value, s.model.value);
-                               return stages;
-                             })
       .def("with_changes", [](const Recipe& self, const RecipeChanges& changes) { return with_changes(self, changes); })
       .def("with_model",
            [](Recipe copy, const std::string& name, const std::string& text) {
@@ -74,7 +67,6 @@ void bind_recipes(py::module_& m) {
   m.def("parse_recipe", &parse_recipe);
   m.def("recipe_names", &recipe_names);
   m.def("model_names", &model_names);
-  m.def("fair_methods", &fair_methods);
 }
 
 }  // namespace pelage::python

@@ -19,10 +19,6 @@ Domain domain_called(const std::string& name) {
   throw py::value_error("a domain is vertex, corner or face, not " + name);
 }
 
-const char* name_of(Domain domain) {
-  return domain == Domain::vertex ? "vertex" : domain == Domain::corner ? "corner" : "face";
-}
-
 /// One number, or as many as there are columns, for each element.
 Attribute attribute_of(const std::string& name, const Numbers<double>& values, const std::string& domain) {
   if (values.ndim() < 1 || values.ndim() > 2)
@@ -62,29 +58,18 @@ PolygonMesh mixed_polygons_from(const Numbers<double>& points, const Numbers<std
   return mesh;
 }
 
-template <class Mesh>
-std::vector<std::string> attribute_names(const Mesh& mesh) {
+std::vector<std::string> attribute_names(const TriangleMesh& mesh) {
   std::vector<std::string> names;
   for (const Attribute& a : mesh.attributes) names.push_back(a.name);
   return names;
 }
 
 /// As rows where it has several components.
-template <class Mesh>
 py::array attribute_view(const py::object& self, const std::string& name) {
-  const Attribute* a = self.cast<const Mesh&>().find(name);
+  const Attribute* a = self.cast<const TriangleMesh&>().find(name);
   if (!a) throw py::key_error(name);
   const py::ssize_t count = std::ssize(a->values) / a->components;
   return view(a->values.data(), a->components == 1 ? Extent{count} : Extent{count, a->components}, self);
-}
-
-py::dict about_attribute(const TriangleMesh& mesh, const std::string& name) {
-  const Attribute* a = mesh.find(name);
-  if (!a) throw py::key_error(name);
-  py::dict about;
-  about["domain"] = name_of(a->domain);
-  about["labels"] = a->labels;
-  return about;
 }
 
 py::dict about_finding(const Finding& f) {
@@ -120,20 +105,6 @@ const char* kind_of(const ShapeFile& file) {
   return file.mesh.triangles.empty() ? "points" : "surface";
 }
 
-UpAxis up_called(const std::string& name) {
-  if (name == "y") return UpAxis::y;
-  if (name == "z") return UpAxis::z;
-  throw py::value_error("up is y or z, not " + name);
-}
-
-SaveOptions save_options(const std::string& name, const std::string& up, bool compress) {
-  SaveOptions options;
-  options.name = name;
-  options.up = up_called(up);
-  options.compress = compress;
-  return options;
-}
-
 template <class Mesh>
 void save_mesh(const Mesh& mesh, const std::string& path, const std::string& name, const std::string& up,
                bool compress) {
@@ -142,17 +113,10 @@ void save_mesh(const Mesh& mesh, const std::string& path, const std::string& nam
   save(mesh, path, options);
 }
 
-template <class Mesh>
-py::bytes bytes_of_mesh(const Mesh& mesh, const std::string& extension, const std::string& name,
-                        const std::string& up) {
-  return mesh_bytes(mesh, extension, save_options(name, up, false));
-}
-
 template <class Class>
 void bind_saving(Class& c) {
   using Mesh = typename Class::type;
   c.def("save", &save_mesh<Mesh>, py::arg("path"), py::arg("name"), py::arg("up"), py::arg("compress"));
-  c.def("bytes", &bytes_of_mesh<Mesh>, py::arg("extension"), py::arg("name"), py::arg("up"));
   c.def("losses", [](const Mesh& mesh, const std::string& extension) { return losses(mesh, extension); });
 }
 
@@ -165,9 +129,8 @@ void bind_meshes(py::module_& m) {
                                const auto& t = self.cast<const TriangleMesh&>().triangles;
                                return view(reinterpret_cast<const std::int32_t*>(t.data()), {std::ssize(t), 3}, self);
                              })
-      .def_property_readonly("attribute_names", &attribute_names<TriangleMesh>)
-      .def("attribute", &attribute_view<TriangleMesh>)
-      .def("about_attribute", &about_attribute)
+      .def_property_readonly("attribute_names", &attribute_names)
+      .def("attribute", &attribute_view)
       .def("with_attribute",
            [](TriangleMesh copy, const std::string& name, const Numbers<double>& values, const std::string& domain) {
              copy.set(attribute_of(name, values, domain));
@@ -191,9 +154,7 @@ void bind_meshes(py::module_& m) {
       .def(py::init(&mixed_polygons_from))
       .def("set", [](PolygonMesh& self, const std::string& name, const Numbers<double>& values,
                      const std::string& domain) { self.set(attribute_of(name, values, domain)); })
-      .def("set_unit", [](PolygonMesh& self, double metres) { self.metres_per_unit = metres; })
-      .def("attribute", &attribute_view<PolygonMesh>)
-      .def_property_readonly("attribute_names", &attribute_names<PolygonMesh>);
+      .def("set_unit", [](PolygonMesh& self, double metres) { self.metres_per_unit = metres; });
   bind_saving(polygons);
 }
 
@@ -226,7 +187,6 @@ void bind_shapes(py::module_& m) {
   m.def("find_shape", &find_shape, py::call_guard<py::gil_scoped_release>());
   m.def("check_shape", py::overload_cast<PolygonMesh, const std::string&>(&check_shape),
         py::call_guard<py::gil_scoped_release>());
-  m.def("readable_extensions", &readable_extensions);
   m.def("mesh_extensions", &mesh_extensions);
   m.def("write_png", [](const Numbers<float>& rgb, const std::string& path) { write_png(image_of(rgb), path); });
   m.def("png_bytes", [](const Numbers<float>& rgb) { return py::bytes(png_bytes(image_of(rgb))); });

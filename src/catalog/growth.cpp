@@ -97,7 +97,6 @@ Recipe suited_to(const OwnRates& own, Recipe recipe) {
 std::pair<Run, ShapeFile> run_on(ShapeFile file, const Recipe& recipe, const Progress& progress, const OwnRates& own) {
   const Plan planned = plan(suited_to(own, recipe));
   std::vector<Texture> images = read_images(recipe.textures);
-  fill_solid(planned, file, images);
   Program program = bind_plan(planned, file, std::move(images));
   take(own, program);
   return {Run(std::move(program), progress), std::move(file)};

@@ -25,25 +25,25 @@ void require_surface(const CoatFields& fields, int size) {
                 "an image has from " + std::to_string(smallest) + " to " + std::to_string(largest) + " texels a side");
 }
 
-ShapeFile with_atlas(ShapeFile file, int size, const Progress& progress) {
+}  // namespace
+
+AtlasShape with_atlas(ShapeFile file, int size, const Progress& progress) {
   const PolygonMesh polygons = file.source ? file.source->polygons : polygons_of(file.mesh);
-  return with_attribute(std::move(file), unwrap(polygons, atlas_options(size), progress).uv);
+  Unwrapped atlas = unwrap(polygons, atlas_options(size), progress);
+  return {with_attribute(std::move(file), std::move(atlas.uv)), atlas.report.charts};
 }
 
-/// What viewers shade: the file's own mesh, cut into triangles, where repairs have left as many.
 TriangleMesh shaded_mesh(const PolygonMesh& mesh, const TriangleMesh& shape) {
   std::vector<Finding> ignored;
   TriangleMesh shaded = triangulate(mesh, ignored).mesh;
   return shaded.triangles.size() == shape.triangles.size() ? shaded : shape;
 }
 
-}  // namespace
-
 TexturedMesh textured_coat(CoatFields fields, ShapeFile file, const Look& look, int size, const Progress& progress) {
   require_surface(fields, size);
   file.mesh = *fields.shape;
   if (!has_uv(file.mesh)) {
-    file = with_atlas(std::move(file), size, progress);
+    file = with_atlas(std::move(file), size, progress).file;
     fields.shape = std::make_shared<const TriangleMesh>(file.mesh);
   }
   const TriangleMesh& shape = *fields.shape;
